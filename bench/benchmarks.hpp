@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+namespace edgevox::bench {
+
+/// CPU time of all threads; the name is "row/sequence".
+template <typename Function>
+void add(const std::string& row, const std::string& sequence_name, Function function) {
+  const std::string name = row + "/" + sequence_name;
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State& state) { function(state, sequence_name); })
+      ->MeasureProcessCPUTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+void addScanBenchmarks(const std::string& sequence_name);
+void addMapBenchmarks(const std::string& sequence_name);
+void addRegistrationBenchmarks(const std::string& sequence_name);
+
+}  // namespace edgevox::bench

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The second half of a sequence into and against the map of what came before.
+#include <utility>
+
+#include "benchmarks.hpp"
+#include "core/scan_sample.hpp"
+#include "edgevox/matcher.hpp"
+#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/pipeline.hpp"
+#include "sequence.hpp"
+
+namespace edgevox::bench {
+namespace {
+
+using benchmark::State;
+
+OccupiedVoxelMap mapOf(const Sequence& s, size_t scans) {
+  OccupiedVoxelMap map(s.config.voxel_size, s.config.matcher.coarsest_voxel, s.config.map,
+                       s.config.edges, 1);
+  for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i]);
+  map.label();
+  return map;
+}
+
+/// Times `step`, for a scan, over the second half of the sequence. Between steps, not timed,
+/// `between` works on the same map.
+template <typename Step, typename Between>
+void timeSteps(State& state, const std::string& name, const Step& step, const Between& between) {
+  const Sequence& s = sequence(name);
+  const size_t count = s.size() - s.half();
+  while (state.KeepRunningBatch(static_cast<int64_t>(count))) {
+    state.PauseTiming();
+    OccupiedVoxelMap map = mapOf(s, s.half());
+    for (size_t i = s.half(); i < s.size(); ++i) {
+      between(map, s, i);
+      state.ResumeTiming();
+      step(map, s, i);
+      state.PauseTiming();
+    }
+    { const OccupiedVoxelMap freed = std::move(map); }
+    state.ResumeTiming();
+  }
+}
+
+void insert(State& state, const std::string& name) {
+  timeSteps(
+      state, name,
+      [](OccupiedVoxelMap& map, const Sequence& s, size_t i) { map.add(s.centroids[i]); },
+      [](OccupiedVoxelMap& map, const Sequence&, size_t) {
+        if (map.labelDue()) map.label();
+      });
+}
+
+void label(State& state, const std::string& name) {
+  timeSteps(
+      state, name, [](OccupiedVoxelMap& map, const Sequence&, size_t) { map.label(); },
+      [](OccupiedVoxelMap& map, const Sequence& s, size_t i) { map.add(s.centroids[i]); });
+}
+
+ScanSample sampleOf(const Sequence& s, size_t i) {
+  const auto count = static_cast<size_t>(s.config.matcher.refine_points);
+  const Pose T_sensor_map = s.poses[i].inverse();
+  ScanSample sample;
+  for (const size_t position : sampleVoxels(s.scans[i], count)) {
+    sample.push_back(T_sensor_map * s.centroids[i][position]);
+  }
+  return sample;
+}
+
+void search(State& state, const std::string& name) {
+  const Sequence& s = sequence(name);
+  const OccupiedVoxelMap map = mapOf(s, s.sample());
+  const ScanSample sample = sampleOf(s, s.sample());
+  const Matcher matcher(s.config.matcher);
+  const auto points = static_cast<size_t>(s.config.matcher.search_points);
+  const Pose guess = s.predicted(s.sample());
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.search(map, sample, points, guess));
+}
+
+void refine(State& state, const std::string& name) {
+  const Sequence& s = sequence(name);
+  const OccupiedVoxelMap map = mapOf(s, s.sample());
+  const ScanSample sample = sampleOf(s, s.sample());
+  const Matcher matcher(s.config.matcher);
+  const auto points = static_cast<size_t>(s.config.matcher.search_points);
+  const Pose found = matcher.search(map, sample, points, s.predicted(s.sample()));
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map, sample, found, false));
+}
+
+/// All stages, a scan.
+void pipeline(State& state, const std::string& name) {
+  const Sequence& s = sequence(name);
+  const size_t count = s.size() - s.half();
+  size_t lost = 0;
+  while (state.KeepRunningBatch(static_cast<int64_t>(count))) {
+    state.PauseTiming();
+    {
+      Pipeline pipeline(s.config);
+      for (size_t i = 0; i < s.half(); ++i) pipeline.process(s.clouds[i].view);
+      state.ResumeTiming();
+      for (size_t i = s.half(); i < s.size(); ++i) {
+        lost += pipeline.process(s.clouds[i].view).scan.located() ? 0 : 1;
+      }
+      state.PauseTiming();
+    }
+    state.ResumeTiming();
+  }
+  if (lost != 0) state.SkipWithError("a scan was lost");
+}
+
+}  // namespace
+
+void addMapBenchmarks(const std::string& sequence_name) {
+  add("insert", sequence_name, insert);
+  add("label", sequence_name, label);
+  add("search", sequence_name, search);
+  add("refine", sequence_name, refine);
+  add("pipeline", sequence_name, pipeline);
+}
+
+}  // namespace edgevox::bench

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace edgevox {
+
+/// Which voxels of the map scans are aligned to.
+enum class Representation {
+  kEdges,   ///< accumulated edges and a thin set of planar anchors
+  kAll,     ///< all occupied voxels
+  kRandom,  ///< as many voxels as kEdges has, chosen by hash: the yardstick for kEdges
+};
+
+enum class EdgeMode {
+  kDefault,  ///< Sobel gradients, corners kept, support filter
+  kPaper,    ///< Ryde et al. 2013, eq. 5-7 with t_mag = 1 and t_ratio = 0; nothing else applies
+};
+
+enum class MatcherMode {
+  kRefined,    ///< discrete search, then voxel-Gaussian refinement
+  kPublished,  ///< Ryde and Hu 2010: hill climbing alone
+};
+
+enum class InstructionSet { kAuto, kPortable, kAvx2 };
+
+struct VoxelizerConfig {
+  double min_range = 0.5;    ///< [m]
+  double max_range = 120.0;  ///< [m]
+};
+
+struct EdgeConfig {
+  EdgeMode mode = EdgeMode::kDefault;
+  double magnitude = 0.10;    ///< least middle eigenvalue, of a plane's largest
+  double ratio = 0.10;        ///< least middle / largest eigenvalue
+  double scan_support = 0.3;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
+  double map_support = 0.5;   ///< the same on accumulated occupancy
+  InstructionSet instruction_set = InstructionSet::kAuto;
+};
+
+struct MapConfig {
+  Representation representation = Representation::kEdges;
+  int min_hits = 2;              ///< scans that must have hit a voxel for it to count as occupied
+  double anchor_fraction = 0.1;  ///< of the planar voxels, kept beside the edges
+  int label_every = 5;           ///< scans between two labellings
+};
+
+struct MatcherConfig {
+  MatcherMode mode = MatcherMode::kRefined;
+  double coarsest_voxel = 6.4;      ///< of the search, rounded to voxel_size * 2^k [m]
+  int search_points = 1000;
+  int refine_points = 3000;
+  int restart_points = 300;
+  int max_restarts = 60;
+  double min_hit_ratio = 0.5;       ///< of an accepted match, before there is a history
+  double relative_hit_ratio = 0.75; ///< of an accepted match, of the running median
+};
+
+struct MapperConfig {
+  double fallback_hit_ratio = 0.6;  ///< of its running median: match all voxels below it
+  double fallback_sigma = 1.6;      ///< worst deviation of the pose / its running median
+  int fallback_matches = 100;       ///< match all voxels below it
+};
+
+struct Config {
+  double voxel_size = 0.2;  ///< finest voxel of the map [m]
+  int threads = 1;
+  VoxelizerConfig voxelizer;
+  EdgeConfig edges;
+  MapConfig map;
+  MatcherConfig matcher;
+  MapperConfig mapper;
+};
+
+/// A parameter that is one of a few words.
+struct Choice {
+  std::vector<std::string> words;
+  std::function<std::string()> get;
+  std::function<bool(const std::string&)> set;  ///< false if it is none of the words
+};
+
+/// One parameter of a Config, by reference. The only list of names: files, ROS parameters and
+/// documentation are made from it.
+struct Parameter {
+  std::string name;  ///< "group/name" or "name"
+  std::variant<double*, int*, Choice> value;
+  double min = 0.0;  ///< of a number
+  double max = 0.0;
+  std::string unit;
+  std::string meaning;
+};
+
+/// Valid as long as `config`.
+std::vector<Parameter> parametersOf(Config& config);
+
+struct ConfigError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Throws ConfigError that names the parameter, its value and its range.
+void validate(const Config& config);
+
+/// Throws ConfigError if the text is no value of the parameter's type and range.
+void assign(const Parameter& parameter, const std::string& text);
+
+/// The shortest text that assign() turns back into the same value.
+std::string valueText(const Parameter& parameter);
+
+}  // namespace edgevox

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "edgevox/block_grid.hpp"
+#include "edgevox/config.hpp"
+#include "edgevox/voxel.hpp"
+
+namespace edgevox {
+
+/// Labels occupied voxels that lie on geometric edges by the structure tensor of the occupancy
+/// (Ryde, Delmerico, Corso 2013, eq. 5-7). A label depends on the voxels within `reach` of its
+/// own alone, so it is the same for any block edge, number of threads and instruction set.
+template <int kEdge>
+class EdgeLabeller {
+ public:
+  using Grid = BitGrid<kEdge>;
+
+  /// `support`: least eigenvalue of the covariance of the occupied positions in the 7^3
+  /// neighbourhood [voxel^2]; 0 switches the filter off. Throws ConfigError when the instruction
+  /// set asked for is not to be had.
+  EdgeLabeller(const EdgeConfig& config, double support, int threads);
+
+  /// How far a change of occupancy changes labels [voxels, in each axis].
+  int reach() const;
+
+  /// Labels the `targets`, which must be occupied, anew; other voxels of `edges` stay.
+  void label(const Grid& occupied, const Grid& targets, Grid& edges) const;
+
+ private:
+  EdgeConfig config_;
+  double support_;
+  int threads_;
+};
+
+extern template class EdgeLabeller<8>;
+extern template class EdgeLabeller<16>;
+extern template class EdgeLabeller<32>;
+
+struct EdgeCount {
+  size_t occupied = 0;  ///< voxels of the map's size
+  size_t edges = 0;
+};
+
+/// Labels the edges of one scan at the map's voxel size.
+class EdgeExtractor {
+ public:
+  EdgeExtractor(const EdgeConfig& config, int threads);
+
+  /// Sets ScanVoxel::edge: whether the voxel of twice the size that holds it is an edge.
+  EdgeCount extract(VoxelScan& scan);
+
+ private:
+  EdgeLabeller<16> labeller_;
+  BitGrid<16> occupied_;
+  BitGrid<16> edges_;
+};
+
+}  // namespace edgevox

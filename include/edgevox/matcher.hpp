@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/config.hpp"
+#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/voxel.hpp"
+
+namespace edgevox {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Centroids of a scan in the sensor's frame [m], in an order in which every prefix is spread
+/// over the scan: the search uses the first few of them, the refinement more.
+using ScanSample = std::vector<Eigen::Vector3d>;
+
+struct MatchRequest {
+  Pose guess = Pose::Identity();  ///< T_map_sensor
+  double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
+  double reach = 1.0;             ///< widening of the restarts; 1 is 1 m and 25 degrees
+  bool all_voxels = false;        ///< refine against all occupied voxels
+  uint64_t seed = 0;              ///< of the restarts
+};
+
+struct MatchResult {
+  Pose T_map_sensor = Pose::Identity();
+  double hit_ratio = 0.0;  ///< of the sample, in occupied voxels of level 1
+  int matches = 0;         ///< points with a Gaussian in the last refinement step
+  int restarts = 0;
+  /// Of the last step, on (translation, rotation vector about the sensor), in the map's axes.
+  Matrix6 information = Matrix6::Zero();
+  bool accepted = false;   ///< hit_ratio >= required_hit_ratio
+};
+
+/// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
+/// 2010), then robust Gauss-Newton from points to voxel Gaussians; verified by the hit ratio.
+/// Deterministic: integer scores, fixed tie-breaks, sums in a fixed order.
+class Matcher {
+ public:
+  explicit Matcher(const MatcherConfig& config) : config_(config) {}
+
+  /// From the guess alone, then from restarts around it until one is accepted.
+  MatchResult match(const OccupiedVoxelMap& map, const ScanSample& sample,
+                    const MatchRequest& request) const;
+  /// From the guess alone.
+  MatchResult align(const OccupiedVoxelMap& map, const ScanSample& sample,
+                    const MatchRequest& request) const;
+
+  /// The discrete search alone, with the first `points` of the sample.
+  Pose search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+              const Pose& guess) const;
+  /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set.
+  MatchResult refine(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& guess,
+                     int coarsest, bool all_voxels) const;
+  /// Fraction of the sample in occupied voxels of level 1.
+  static double hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
+                         const Pose& T_map_sensor);
+
+ private:
+  void restart(const OccupiedVoxelMap& map, const ScanSample& sample, const MatchRequest& request,
+               MatchResult& best) const;
+  Pose climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sample,
+                        const Pose& guess) const;
+
+  MatcherConfig config_;
+};
+
+/// Worst standard deviation of a match [m]: of the translation, or of the rotation at `range`.
+double worstSigma(const Matrix6& information, double range);
+
+}  // namespace edgevox

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/block_grid.hpp"
+#include "edgevox/config.hpp"
+#include "edgevox/edge_extractor.hpp"
+#include "edgevox/pool.hpp"
+#include "edgevox/voxel.hpp"
+
+namespace edgevox {
+
+/// Where the surface in a voxel lies and how well each direction is known.
+struct VoxelGaussian {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< [m]
+  /// xx, yy, zz, xy, yz, zx of C^-1 - lambda_min(C^-1) I [1/m^2]: none along the surface
+  std::array<float, 6> information{};
+};
+
+/// The voxels of one size with their Gaussians. Which of them are `selected` depends on the
+/// representation of the map.
+class GaussianLevel {
+ public:
+  struct Cell {
+    std::array<float, 3> sum{};    ///< of the centroids, from the voxel's centre [m]
+    std::array<float, 6> outer{};  ///< xx, yy, zz, xy, yz, zx of the same [m^2]
+    uint32_t count = 0;            ///< centroids
+    uint32_t last_scan = 0;
+    uint16_t hits = 0;             ///< scans
+    uint8_t selected_children = 0; ///< finer voxels that are edges or selected
+    bool kept = false;             ///< an edge or an anchor, or holds one
+    bool stale = false;            ///< changed since its Gaussian was computed
+  };
+
+  explicit GaussianLevel(double voxel_size) : voxel_size_(voxel_size) {}
+
+  double voxelSize() const { return voxel_size_; }
+
+  /// Null if the voxel is not selected or, for `all`, not occupied. Gaussians of voxels that are
+  /// not selected are as of the last updateAll().
+  const VoxelGaussian* find(const VoxelIndex& v, bool all) const {
+    const int32_t block = grid_.findBlock(Layout::block(v));
+    if (block == BlockTable::kNone) return nullptr;
+    return findInBlock(static_cast<size_t>(block), v, all);
+  }
+
+  /// Of the voxel and its six neighbours the one nearest to `point` by its information; its
+  /// squared Mahalanobis distance goes to `distance`. Null if none is there.
+  const VoxelGaussian* nearest(const Eigen::Vector3f& point, bool all, float& distance) const;
+
+  /// The slot of a voxel's cell, which is made if there is none.
+  uint32_t slotFor(const VoxelIndex& v);
+  /// Adds a centroid of scan `scan` (counted from 1); true if it is the scan's first there.
+  bool add(uint32_t slot, const Eigen::Vector3d& centroid, uint32_t scan);
+  /// Computes the Gaussians of the selected cells that have changed.
+  void updateSelected();
+  /// Those of all cells that have changed.
+  void updateAll();
+  void select(uint32_t slot, bool selected);
+
+  uint32_t slotOf(const VoxelIndex& v) const { return grid_.find(v); }
+  Cell& cell(uint32_t slot) { return cells_[slot]; }
+  const Cell& cell(uint32_t slot) const { return cells_[slot]; }
+  const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
+  size_t size() const { return cells_.size(); }
+  size_t selectedCount() const { return selected_count_; }
+  size_t blocksWithSelection() const;
+  size_t bytes() const;
+
+ private:
+  using Layout = BlockLayout<8>;
+  using Bits = std::array<uint8_t, Layout::kRows>;
+
+  const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v, bool all) const {
+    const auto row = static_cast<size_t>(Layout::row(v));
+    const auto& bits = all ? grid_.block(block).occupied : selected_[block];
+    if (((bits[row] >> Layout::column(v)) & 1) == 0) return nullptr;
+    return &gaussians_[grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))]];
+  }
+
+  double voxel_size_;
+  SlotGrid<8> grid_;
+  std::deque<Bits> selected_;  // one a block of grid_
+  size_t selected_count_ = 0;
+  bool isSelected(uint32_t slot) const;
+  void update(uint32_t slot);
+
+  Pool<Cell> cells_;
+  Pool<VoxelIndex> voxels_;
+  Pool<VoxelGaussian> gaussians_;
+  std::vector<uint32_t> stale_;  // slots of stale cells, some of them updated since
+};
+
+/// A multi-resolution occupied voxel list (Ryde and Hu 2010). Level k has voxels of
+/// voxel_size * 2^k. Level 0 counts hits and holds the edge labels of the accumulated occupancy;
+/// levels 1 to kGaussianLevels hold Gaussians for the refinement; all from 1 on hold the bits of
+/// all occupied voxels for the search.
+class OccupiedVoxelMap {
+ public:
+  static constexpr int kGaussianLevels = 2;
+
+  /// `coarsest_voxel` [m] fixes the number of levels.
+  OccupiedVoxelMap(double voxel_size, double coarsest_voxel, const MapConfig& map,
+                   const EdgeConfig& edges, int threads);
+
+  /// add(), then label() when it is due.
+  void insert(const std::vector<Eigen::Vector3d>& centroids);
+  /// Adds one scan's centroids, in the map frame [m]; those out of the grid's range are ignored
+  /// and counted.
+  void add(const std::vector<Eigen::Vector3d>& centroids);
+  /// Every `label_every` scans; never where only the map's output needs labels.
+  bool labelDue() const;
+  /// Labels what has changed since the last labelling. The labels are those that labelling the
+  /// whole map would give.
+  void label();
+  /// Makes the Gaussians of all occupied voxels ready for matching, selected or not.
+  void prepareAll();
+  void clear();
+
+  int levels() const { return static_cast<int>(occupied_.size()); }
+  double voxelSize(int level) const { return voxel_size_ * static_cast<double>(1 << level); }
+  bool empty() const { return scans_ == 0; }
+  uint32_t scans() const { return scans_; }
+
+  /// 1 <= level < levels()
+  const BitGrid<8>& occupied(int level) const { return occupied_[static_cast<size_t>(level)]; }
+  /// 1 <= level <= kGaussianLevels
+  const GaussianLevel& gaussians(int level) const {
+    return gaussians_[static_cast<size_t>(level - 1)];
+  }
+  /// Voxels of level 0 with at least `min_hits`.
+  const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
+  const BitGrid<16>& edgeVoxels() const { return edge_voxels_; }
+  /// Mean of the centroids that fell in a voxel of level 0; the voxel must have been hit.
+  Eigen::Vector3d centroid(const VoxelIndex& v) const;
+
+  size_t ignoredCentroids() const { return ignored_; }
+  /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
+  size_t packedBytes() const;
+  /// What is held while mapping.
+  size_t bytes() const;
+
+ private:
+  struct Hit {
+    std::array<float, 3> sum{};  // from the voxel's centre [m]
+    uint32_t count = 0;
+    uint32_t last_scan = 0;
+    uint32_t hits = 0;
+  };
+
+  void addInside(const std::vector<Eigen::Vector3d>& centroids);
+  void addHits(const std::vector<Eigen::Vector3d>& centroids);
+  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
+  void markOccupied(const VoxelIndex& v);
+  bool isAnchor(const VoxelIndex& v) const;
+  void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
+  /// One finer voxel of v's became an edge (+1) or stopped being one (-1).
+  void countChild(int level, const VoxelIndex& v, int change);
+  void updateKept(int level, uint32_t slot);
+  void selectRandom();
+  GaussianLevel& level(int l) { return gaussians_[static_cast<size_t>(l - 1)]; }
+
+  double voxel_size_;
+  MapConfig config_;
+  EdgeConfig edge_config_;
+  EdgeLabeller<16> labeller_;
+  uint32_t scans_ = 0;
+  size_t ignored_ = 0;
+  SlotGrid<8> hit_grid_;
+  Pool<Hit> hits_;
+  BitGrid<16> hit_voxels_;
+  BitGrid<16> edge_voxels_;
+  BitGrid<16> changed_;  // hit voxels since the last labelling
+  std::vector<GaussianLevel> gaussians_;
+  std::vector<BitGrid<8>> occupied_;  // [0] is not used
+  std::vector<VoxelIndex> voxels_;    // of the scan being added, at level 0
+  std::vector<uint32_t> slots_;       // of the same, at one level
+};
+
+}  // namespace edgevox

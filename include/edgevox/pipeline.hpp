@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "edgevox/config.hpp"
+#include "edgevox/edge_extractor.hpp"
+#include "edgevox/mapper.hpp"
+#include "edgevox/stage_timer.hpp"
+#include "edgevox/voxelizer.hpp"
+
+namespace edgevox {
+
+/// One cloud through the whole pipeline.
+struct PipelineResult {
+  ScanResult scan;
+  size_t points = 0;
+  size_t scan_voxels = 0;
+  DroppedPoints dropped;
+  EdgeCount edges;            ///< of the scan
+  double voxelize = 0.0;      ///< [s]
+  double extract = 0.0;       ///< [s]
+};
+
+/// Voxelizer, edge extractor and mapper in a row: the same three calls that the nodelets make.
+class Pipeline {
+ public:
+  /// Throws ConfigError if the configuration is not valid.
+  explicit Pipeline(const Config& config, Clock clock = Clock::kProcessCpu);
+
+  PipelineResult process(const CloudView& cloud,
+                         const std::optional<Pose>& T_odom_sensor = std::nullopt);
+
+  Mapper& mapper() { return mapper_; }
+  const OccupiedVoxelMap& map() const { return mapper_.map(); }
+
+ private:
+  Clock clock_;
+  Voxelizer voxelizer_;
+  EdgeExtractor extractor_;
+  Mapper mapper_;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace edgevox {
+
+/// A rigid transform. `T_a_b` maps coordinates of frame b to frame a; metres.
+using Pose = Eigen::Isometry3d;
+
+/// Voxel (i, j, k) of size r covers [i r, (i+1) r) x [j r, (j+1) r) x [k r, (k+1) r).
+struct VoxelIndex {
+  int32_t x = 0;
+  int32_t y = 0;
+  int32_t z = 0;
+
+  friend bool operator==(const VoxelIndex& a, const VoxelIndex& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+  friend bool operator!=(const VoxelIndex& a, const VoxelIndex& b) { return !(a == b); }
+  friend bool operator<(const VoxelIndex& a, const VoxelIndex& b) {
+    if (a.z != b.z) return a.z < b.z;
+    if (a.y != b.y) return a.y < b.y;
+    return a.x < b.x;
+  }
+};
+
+/// Every index that enters a grid lies in [-kIndexLimit, kIndexLimit); 52 km at 5 cm.
+constexpr int32_t kIndexLimit = 1 << 20;
+
+inline int32_t floorToInt(double v) {
+  const auto i = static_cast<int32_t>(v);
+  return i - static_cast<int32_t>(v < static_cast<double>(i));
+}
+
+/// Requires |coordinate * inverse_size| < 2^31.
+template <typename Derived>
+VoxelIndex voxelAt(const Eigen::MatrixBase<Derived>& point, double inverse_size) {
+  return {floorToInt(static_cast<double>(point.x()) * inverse_size),
+          floorToInt(static_cast<double>(point.y()) * inverse_size),
+          floorToInt(static_cast<double>(point.z()) * inverse_size)};
+}
+
+inline Eigen::Vector3d voxelCentre(const VoxelIndex& v, double size) {
+  return {(v.x + 0.5) * size, (v.y + 0.5) * size, (v.z + 0.5) * size};
+}
+
+/// The voxel 2^levels times as large that holds v.
+inline VoxelIndex coarser(const VoxelIndex& v, int levels) {
+  return {v.x >> levels, v.y >> levels, v.z >> levels};
+}
+
+inline bool inGridRange(const VoxelIndex& v) {
+  const auto ok = [](int32_t i) { return i >= -kIndexLimit && i < kIndexLimit; };
+  return ok(v.x) && ok(v.y) && ok(v.z);
+}
+
+/// 21 bits an axis; unique for indices in the grid range.
+inline uint64_t packedIndex(const VoxelIndex& v) {
+  const auto bits = [](int32_t i) { return static_cast<uint64_t>(i + kIndexLimit); };
+  return bits(v.x) | bits(v.y) << 21 | bits(v.z) << 42;
+}
+
+/// A bijective mix of 64 bits (the finalizer of SplitMix64).
+inline uint64_t mixBits(uint64_t v) {
+  v ^= v >> 30;
+  v *= 0xbf58476d1ce4e5b9ULL;
+  v ^= v >> 27;
+  v *= 0x94d049bb133111ebULL;
+  return v ^ (v >> 31);
+}
+
+inline uint64_t voxelHash(const VoxelIndex& v) { return mixBits(packedIndex(v)); }
+
+/// One occupied voxel of a scan, in the frame of the cloud.
+struct ScanVoxel {
+  VoxelIndex index;                                     ///< at VoxelScan::voxel_size
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();   ///< mean of its points [m]
+  float time_offset = 0.0F;                             ///< mean of its points' times - stamp [s]
+  uint32_t point_count = 0;
+  bool edge = false;                                    ///< set by EdgeExtractor
+};
+
+/// Why points of a cloud were not used.
+struct DroppedPoints {
+  uint64_t not_finite = 0;
+  uint64_t too_near = 0;
+  uint64_t too_far = 0;
+  uint64_t bad_time = 0;  ///< the point is used with the time of the point before it
+
+  uint64_t total() const { return not_finite + too_near + too_far; }
+};
+
+/// One cloud as occupied voxels, block by block.
+struct VoxelScan {
+  double stamp = 0.0;  ///< of the cloud [s]
+  std::string frame;   ///< of the cloud
+  uint64_t number = 0; ///< counts the clouds read
+  double voxel_size = 0.0;  ///< [m]
+  std::vector<ScanVoxel> voxels;
+  uint64_t points_read = 0;
+  DroppedPoints dropped;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/config.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+namespace edgevox {
+namespace {
+
+/// Words stand for the values 0, 1, 2, ... of the enumeration.
+template <typename Enum>
+Choice choiceOf(Enum& value, std::vector<std::string> words) {
+  return {words, [&value, words] { return words[static_cast<size_t>(value)]; },
+          [&value, words](const std::string& word) {
+            const auto found = std::find(words.begin(), words.end(), word);
+            if (found == words.end()) return false;
+            value = static_cast<Enum>(found - words.begin());
+            return true;
+          }};
+}
+
+std::string rangeText(const Parameter& p) {
+  std::ostringstream out;
+  if (const auto* choice = std::get_if<Choice>(&p.value)) {
+    for (size_t i = 0; i < choice->words.size(); ++i) {
+      out << (i == 0 ? "" : ", ") << choice->words[i];
+    }
+    return "one of " + out.str();
+  }
+  out << "a" << (std::holds_alternative<int*>(p.value) ? " whole" : "") << " number from " << p.min
+      << " to " << p.max << (p.unit.empty() ? "" : " " + p.unit);
+  return out.str();
+}
+
+[[noreturn]] void reject(const Parameter& p, const std::string& text) {
+  throw ConfigError("parameter '" + p.name + "' is '" + text + "'; it must be " + rangeText(p));
+}
+
+bool parse(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0';
+}
+
+bool inRange(const Parameter& p, double value) { return value >= p.min && value <= p.max; }
+
+}  // namespace
+
+std::vector<Parameter> parametersOf(Config& c) {
+  constexpr int kMaxCount = 1000000;
+  return {
+      {"voxel_size", &c.voxel_size, 0.01, 10, "m",
+       "finest voxel of the map; scans are voxelized at half of it"},
+      {"threads", &c.threads, 1, 64, "", "threads that label edges; results do not depend on it"},
+      {"voxelizer/min_range", &c.voxelizer.min_range, 0, 1000, "m", "nearer points are dropped"},
+      {"voxelizer/max_range", &c.voxelizer.max_range, 0.1, 10000, "m",
+       "farther points are dropped"},
+      {"edges/mode", choiceOf(c.edges.mode, {"default", "paper"}), 0, 0, "",
+       "'paper' is the extractor exactly as published; no other parameter of edges applies to it"},
+      {"edges/magnitude", &c.edges.magnitude, 0.001, 1, "",
+       "least middle eigenvalue of the structure tensor, relative to a plane's largest"},
+      {"edges/ratio", &c.edges.ratio, 0, 1, "", "least ratio of the middle to the largest eigenvalue"},
+      {"edges/scan_support", &c.edges.scan_support, 0, 4, "voxel^2",
+       "least spread of the occupied voxels around an edge of one scan; 0 switches it off"},
+      {"edges/map_support", &c.edges.map_support, 0, 4, "voxel^2",
+       "the same in the accumulated map"},
+      {"edges/instruction_set",
+       choiceOf(c.edges.instruction_set, {"auto", "portable", "avx2"}), 0, 0, "",
+       "results do not depend on it"},
+      {"map/representation", choiceOf(c.map.representation, {"edges", "all", "random"}), 0, 0, "",
+       "voxels that scans are aligned to: edges and planar anchors, all, or as many as edges by "
+       "chance"},
+      {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},
+      {"map/anchor_fraction", &c.map.anchor_fraction, 0, 1, "",
+       "share of the planar voxels kept beside the edges"},
+      {"map/label_every", &c.map.label_every, 1, 100, "", "scans between two labellings of the map"},
+      {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
+       "'published' is hill climbing alone, for comparison"},
+      {"matcher/coarsest_voxel", &c.matcher.coarsest_voxel, 0.1, 100, "m",
+       "largest voxel of the search: how far from the prediction a pose is found"},
+      {"matcher/search_points", &c.matcher.search_points, 50, kMaxCount, "", "of a scan"},
+      {"matcher/refine_points", &c.matcher.refine_points, 50, kMaxCount, "", "of a scan"},
+      {"matcher/restart_points", &c.matcher.restart_points, 50, kMaxCount, "", "of a scan"},
+      {"matcher/max_restarts", &c.matcher.max_restarts, 0, 10000, "",
+       "searches from random poses around the prediction before a scan is lost"},
+      {"matcher/min_hit_ratio", &c.matcher.min_hit_ratio, 0, 1, "",
+       "share of a scan that must land in occupied voxels, before there is a history"},
+      {"matcher/relative_hit_ratio", &c.matcher.relative_hit_ratio, 0, 1, "",
+       "the same, of the running median"},
+      {"mapper/fallback_hit_ratio", &c.mapper.fallback_hit_ratio, 0, 1, "",
+       "of the running median; below it a scan is aligned to all voxels"},
+      {"mapper/fallback_sigma", &c.mapper.fallback_sigma, 1, 1000, "",
+       "of the running median; a pose less certain is aligned to all voxels"},
+      {"mapper/fallback_matches", &c.mapper.fallback_matches, 0, kMaxCount, "",
+       "with fewer matched points a scan is aligned to all voxels"},
+  };
+}
+
+void validate(const Config& config) {
+  Config copy = config;
+  for (const Parameter& p : parametersOf(copy)) {
+    double value = p.min;
+    if (const auto* number = std::get_if<double*>(&p.value)) value = **number;
+    if (const auto* number = std::get_if<int*>(&p.value)) value = **number;
+    if (!inRange(p, value)) reject(p, valueText(p));
+  }
+  if (config.voxelizer.min_range >= config.voxelizer.max_range) {
+    throw ConfigError("parameter 'voxelizer/min_range' must be less than 'voxelizer/max_range'");
+  }
+}
+
+void assign(const Parameter& p, const std::string& text) {
+  if (const auto* choice = std::get_if<Choice>(&p.value)) {
+    if (!choice->set(text)) reject(p, text);
+    return;
+  }
+  double value = 0;
+  if (!parse(text, value) || !inRange(p, value)) reject(p, text);
+  if (const auto* number = std::get_if<double*>(&p.value)) {
+    **number = value;
+    return;
+  }
+  if (value != std::floor(value)) reject(p, text);
+  *std::get<int*>(p.value) = static_cast<int>(value);
+}
+
+std::string valueText(const Parameter& p) {
+  if (const auto* choice = std::get_if<Choice>(&p.value)) return choice->get();
+  if (const auto* number = std::get_if<int*>(&p.value)) return std::to_string(**number);
+  const double value = *std::get<double*>(p.value);
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::ostringstream out;
+    out.precision(digits);
+    out << value;
+    if (std::strtod(out.str().c_str(), nullptr) == value) return out.str();
+  }
+  return "nan";
+}
+
+}  // namespace edgevox

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/edge_extractor.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "dense_kernel.hpp"
+#include "edge_kernel.hpp"
+#include "neighbourhood.hpp"
+#include "parallel.hpp"
+
+namespace edgevox {
+namespace {
+
+kernel::Thresholds thresholdsOf(const EdgeConfig& config, double support) {
+  const double rho = config.ratio / (1.0 + config.ratio);
+  return {std::llround(config.magnitude * static_cast<double>(kernel::kPlane)),
+          std::llround(std::ldexp(rho, kernel::kRatioBits)),
+          std::llround(std::ldexp(support, kernel::kSupportBits)), false};
+}
+
+bool hasAvx2() {
+#if defined(__x86_64__) || defined(__i386__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+kernel::LabelBlock chooseKernel(InstructionSet instruction_set, int block_edge) {
+  const kernel::LabelBlock avx2 = hasAvx2() ? kernel::avx2LabelBlock(block_edge) : nullptr;
+  if (instruction_set == InstructionSet::kAvx2 && avx2 == nullptr) {
+    throw ConfigError("edges/instruction_set is 'avx2', which this processor or build lacks; "
+                      "use 'auto'");
+  }
+  const bool portable = instruction_set == InstructionSet::kPortable || avx2 == nullptr;
+  return portable ? kernel::portableLabelBlock(block_edge) : avx2;
+}
+
+}  // namespace
+
+template <int kEdge>
+EdgeLabeller<kEdge>::EdgeLabeller(const EdgeConfig& config, double support, int threads)
+    : config_(config), support_(support), threads_(threads) {
+  chooseKernel(config.instruction_set, kEdge);
+}
+
+template <int kEdge>
+int EdgeLabeller<kEdge>::reach() const {
+  return config_.mode == EdgeMode::kPaper ? kernel::kDenseHalo : kernel::kHalo;
+}
+
+template <int kEdge>
+void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid& edges) const {
+  std::vector<size_t> edge_slots(targets.blockCount());
+  for (size_t slot = 0; slot < edge_slots.size(); ++slot) {
+    edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
+  }
+  const auto taps = kernel::paperTaps();
+  const auto thresholds = thresholdsOf(config_, support_);
+  const auto label_block = chooseKernel(config_.instruction_set, kEdge);
+
+  parallelFor(targets.blockCount(), threads_, [&](size_t slot) {
+    constexpr int kRows = BlockLayout<kEdge>::kRows;
+    std::array<uint32_t, kRows> target;
+    std::array<uint32_t, kRows> found;
+    const auto& target_block = targets.block(slot);
+    std::copy(target_block.begin(), target_block.end(), target.begin());
+    const VoxelIndex& block = targets.blockIndex(slot);
+    if (config_.mode == EdgeMode::kPaper) {
+      const Neighbourhood<kEdge, kernel::kDenseHalo> rows(occupied, block);
+      kernel::labelBlockDense<kEdge, double>(rows.data(), target.data(), found.data(), taps, {});
+    } else {
+      const Neighbourhood<kEdge, kernel::kHalo> rows(occupied, block);
+      label_block(rows.data(), target.data(), found.data(), thresholds);
+    }
+    auto& edge_block = edges.block(edge_slots[slot]);
+    for (size_t row = 0; row < kRows; ++row) {
+      edge_block[row] = static_cast<typename Grid::Row>(
+          (edge_block[row] & ~target_block[row]) | (found[row] & target_block[row]));
+    }
+  });
+}
+
+template class EdgeLabeller<8>;
+template class EdgeLabeller<16>;
+template class EdgeLabeller<32>;
+
+EdgeExtractor::EdgeExtractor(const EdgeConfig& config, int threads)
+    : labeller_(config, config.scan_support, threads) {}
+
+EdgeCount EdgeExtractor::extract(VoxelScan& scan) {
+  occupied_.clear();
+  edges_.clear();
+  EdgeCount count;
+  for (const ScanVoxel& voxel : scan.voxels) {
+    count.occupied += occupied_.set(coarser(voxel.index, 1)) ? 1 : 0;
+  }
+  labeller_.label(occupied_, occupied_, edges_);
+  for (ScanVoxel& voxel : scan.voxels) voxel.edge = edges_.test(coarser(voxel.index, 1));
+  count.edges = edges_.voxelCount();
+  return count;
+}
+
+}  // namespace edgevox

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Structure tensor of a block's target voxels (Ryde et al. 2013, eq. 5, with Sobel gradients and
+// binomial weights), and the decision edge or not. Sums along x are shared between voxels, those
+// along y and z are taken at the targets only. All arithmetic is exact, so any instruction set
+// and any block size give the same labels.
+#pragma once
+
+#include <cstring>
+
+#include "edge_kernel.hpp"
+
+namespace edgevox {
+namespace kernel {
+namespace {
+
+typedef int8_t Int8x8 __attribute__((vector_size(8)));
+typedef int8_t Int8x16 __attribute__((vector_size(16)));
+typedef int16_t Int16x8 __attribute__((vector_size(16)));
+typedef int32_t Int32x8 __attribute__((vector_size(32)));
+
+/// What two voxels in a row add to the gradients (gx, gy, gz, 0) of the four cells around them.
+struct GradientTable {
+  int8_t add[3][3][4][16];  // voxel row offset z + 1, y + 1, bits of the two voxels
+
+  constexpr GradientTable() : add() {
+    constexpr int smooth[3] = {1, 2, 1};
+    constexpr int slope[3] = {-1, 0, 1};
+    for (int z = 0; z < 3; ++z) {
+      for (int y = 0; y < 3; ++y) {
+        for (int bits = 0; bits < 4; ++bits) {
+          for (int voxel = 0; voxel < 2; ++voxel) {
+            if (((bits >> voxel) & 1) == 0) continue;
+            for (int x = 0; x < 3; ++x) {  // the voxel lies x - 1 from the cell
+              int8_t* cell = add[z][y][bits] + 4 * (voxel + 2 - x);
+              cell[0] = static_cast<int8_t>(cell[0] + slope[x] * smooth[y] * smooth[z]);
+              cell[1] = static_cast<int8_t>(cell[1] + smooth[x] * slope[y] * smooth[z]);
+              cell[2] = static_cast<int8_t>(cell[2] + smooth[x] * smooth[y] * slope[z]);
+            }
+          }
+        }
+      }
+    }
+  }
+};
+constexpr GradientTable kGradients;
+
+/// Number, sum and sum of squares of the positions -3..3 that are set in 7 bits.
+struct RowMomentTable {
+  int8_t count[128];
+  int8_t sum[128];
+  int8_t squares[128];
+
+  constexpr RowMomentTable() : count(), sum(), squares() {
+    for (int bits = 0; bits < 128; ++bits) {
+      for (int i = 0; i < 7; ++i) {
+        if (((bits >> i) & 1) == 0) continue;
+        count[bits] = static_cast<int8_t>(count[bits] + 1);
+        sum[bits] = static_cast<int8_t>(sum[bits] + (i - 3));
+        squares[bits] = static_cast<int8_t>(squares[bits] + (i - 3) * (i - 3));
+      }
+    }
+  }
+};
+constexpr RowMomentTable kRowMoments;
+
+template <typename Vector, typename T>
+inline Vector load(const T* at) {
+  Vector v;
+  std::memcpy(&v, at, sizeof(v));
+  return v;
+}
+
+template <typename Vector, typename T>
+inline void store(T* at, const Vector& v) {
+  std::memcpy(at, &v, sizeof(v));
+}
+
+#ifdef __clang__
+#define EDGEVOX_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+#define EDGEVOX_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Int16x8{__VA_ARGS__})
+#endif
+
+/// From the gradients (gx, gy, gz, 0) of two cells to their products
+/// (xx, yy, zz, 0, xy, yz, zx, 0).
+inline void multiplyGradients(const int8_t* gradients, int16_t (*products)[8]) {
+  const Int16x8 g = __builtin_convertvector(load<Int8x8>(gradients), Int16x8);
+  const Int16x8 turned = EDGEVOX_SHUFFLE(g, g, 1, 2, 0, 3, 5, 6, 4, 7);
+  const Int16x8 squares = g * g;
+  const Int16x8 mixed = g * turned;
+  store(products[0], EDGEVOX_SHUFFLE(squares, mixed, 0, 1, 2, 3, 8, 9, 10, 11));
+  store(products[1], EDGEVOX_SHUFFLE(squares, mixed, 4, 5, 6, 7, 12, 13, 14, 15));
+}
+#undef EDGEVOX_SHUFFLE
+
+/// Symmetric 3x3 matrix; the order of the components of a tensor everywhere below.
+struct Tensor {
+  int64_t xx, yy, zz, xy, yz, zx;
+};
+
+struct CharacteristicPolynomial {
+  int64_t c2, c1, c0;  // l^3 - c2 l^2 + c1 l - c0
+};
+
+inline CharacteristicPolynomial characteristic(const Tensor& m) {
+  const int64_t minor_x = m.yy * m.zz - m.yz * m.yz;
+  const int64_t minor_y = m.xx * m.zz - m.zx * m.zx;
+  const int64_t minor_z = m.xx * m.yy - m.xy * m.xy;
+  return {m.xx + m.yy + m.zz, minor_x + minor_y + minor_z,
+          m.xx * minor_x - m.xy * (m.xy * m.zz - m.yz * m.zx) +
+              m.zx * (m.xy * m.yz - m.yy * m.zx)};
+}
+
+/// Counts positive eigenvalues by Descartes' rule, exact because all roots are real.
+inline bool isEdge(const Tensor& tensor, const Thresholds& thresholds) {
+  const int64_t trace = tensor.xx + tensor.yy + tensor.zz;
+  const int64_t relative = (thresholds.rho * trace) >> kRatioBits;
+  const int64_t t = relative > thresholds.magnitude ? relative : thresholds.magnitude;
+  const auto p = characteristic({tensor.xx - t, tensor.yy - t, tensor.zz - t, tensor.xy,
+                                 tensor.yz, tensor.zx});
+  const bool exactly_two = (p.c0 < 0) & !((p.c2 <= 0) & (p.c1 >= 0));
+  const bool others_positive = (p.c0 >= 0) & (p.c2 > 0) & (p.c1 > 0);
+  return exactly_two | (others_positive & !thresholds.exclude_corners);
+}
+
+template <int kEdge>
+class BlockLabeller {
+ public:
+  BlockLabeller(const uint64_t* occupied, const uint32_t* targets) : occupied_(occupied) {
+    std::memset(gradient_, 0, sizeof(gradient_));
+    std::memset(product_, 0, sizeof(product_));
+    std::memset(zero_, 0, sizeof(zero_));
+    std::memset(target_, 0, sizeof(target_));
+    for (int z = 0; z < kEdge; ++z) {
+      uint32_t any = 0;
+      for (int y = 0; y < kEdge; ++y) any |= targets[z * kEdge + y];
+      if (any == 0) continue;
+      target_planes_ |= uint64_t{1} << (z + 2 * kReach);
+      std::memcpy(target_[z + 2 * kReach] + 2 * kReach, targets + z * kEdge,
+                  kEdge * sizeof(uint32_t));
+    }
+    for (int z = 0; z < kRows; ++z) occupied_rows_[z] = nonEmptyRows(occupied + z * kRows);
+  }
+
+  void label(uint32_t* edges, const Thresholds& thresholds) {
+    std::memset(edges, 0, kEdge * kEdge * sizeof(uint32_t));
+    for (int z = -kReach; z < kEdge + kReach; ++z) {
+      if (((target_planes_ >> (z + kReach)) & 31) != 0) sumRowsOfSlab(z);
+      const int ready = z - kReach;
+      if (ready >= 0 && hasTargets(ready)) labelSlab(ready, edges + ready * kEdge, thresholds);
+    }
+  }
+
+ private:
+  static constexpr int kReach = 2;                    // of the tensor's weights
+  static constexpr int kCells = kEdge + 2 * kReach;   // cells with a gradient, an axis
+  static constexpr int kRows = kEdge + 2 * kHalo;     // rows of occupancy, an axis
+  static constexpr int kSlabs = 2 * kReach + 1;
+  static constexpr uint64_t kCellMask = (uint64_t{1} << kCells) - 1;
+
+  using SumRow = int16_t[kEdge][8];
+
+  static uint64_t nonEmptyRows(const uint64_t* plane) {
+    uint64_t any = 0;
+    for (int y = 0; y < kRows; ++y) any |= plane[y];
+    if (any == 0) return 0;
+    uint64_t rows = 0;
+    for (int y = 0; y < kRows; ++y) rows |= static_cast<uint64_t>(plane[y] != 0) << y;
+    return rows;
+  }
+
+  bool hasTargets(int z) const { return ((target_planes_ >> (z + 2 * kReach)) & 1) != 0; }
+
+  const uint64_t* occupiedRow(int y, int z) const {
+    return occupied_ + (z + kHalo) * kRows + y + kHalo;
+  }
+
+  /// Voxels of rows (y + dy, z + dz), |dy|, |dz| <= kReach, that are targets.
+  void sumsNeeded(int z, uint32_t* needed) const {
+    uint32_t in_z[kCells + 2 * kReach];
+    for (int y = 0; y < kCells + 2 * kReach; ++y) {
+      const auto row = [&](int dz) { return target_[z + 2 * kReach + dz][y]; };
+      in_z[y] = row(-2) | row(-1) | row(0) | row(1) | row(2);
+    }
+    for (int y = 0; y < kCells; ++y) {
+      needed[y] = in_z[y] | in_z[y + 1] | in_z[y + 2] | in_z[y + 3] | in_z[y + 4];
+    }
+  }
+
+  /// Products of gradients summed along x where a target of the five slabs around z needs them.
+  void sumRowsOfSlab(int z) {
+    const int slab = (z + kReach) % kSlabs;
+    uint32_t needed[kCells];
+    sumsNeeded(z, needed);
+    for (int y = -kReach; y < kEdge + kReach; ++y) {
+      const int16_t(*&row)[8] = sum_row_[slab][y + kReach];
+      row = zero_;
+      if (needed[y + kReach] == 0) continue;
+      const uint64_t cells = accumulateGradients(y, z);
+      if (cells == 0) continue;
+      SumRow& sums = sum_[slab][y + kReach];
+      sumRow(cells, needed[y + kReach], sums);
+      row = sums;
+    }
+  }
+
+  /// Gradients of the row's cells; the cells that may have one, bit x + kReach.
+  uint64_t accumulateGradients(int y, int z) {
+    uint64_t bits = 0;
+    for (int dz = 0; dz < 3; ++dz) {
+      const uint64_t* row = occupiedRow(y - 1, z + dz - 1);
+      uint64_t rows = (occupied_rows_[z + dz - 1 + kHalo] >> (y - 1 + kHalo)) & 7;
+      for (; rows != 0; rows &= rows - 1) {
+        const int dy = __builtin_ctzll(rows);
+        bits |= row[dy];
+        addGradients(row[dy], kGradients.add[dz][dy]);
+      }
+    }
+    return (bits | bits >> 1 | bits >> 2) & kCellMask;
+  }
+
+  void addGradients(uint64_t bits, const int8_t (&table)[4][16]) {
+    while (bits != 0) {
+      const int first = __builtin_ctzll(bits);
+      int8_t* cells = gradient_ + 4 * first;
+      store(cells, load<Int8x16>(cells) + load<Int8x16>(table[(bits >> first) & 3]));
+      bits &= ~(uint64_t{3} << first);
+    }
+  }
+
+  /// Sums along x of the products of the gradients, which are then zero again.
+  void sumRow(uint64_t cells, uint32_t needed, SumRow& sums) {
+    constexpr uint64_t kEvenCells = 0x5555555555555555ULL;
+    const uint64_t pairs = (cells | cells >> 1) & kEvenCells;
+    for (uint64_t rest = pairs; rest != 0; rest &= rest - 1) {
+      const int c = __builtin_ctzll(rest);
+      multiplyGradients(gradient_ + 4 * (c + kReach), product_ + c);
+    }
+    sumAlongX(needed, sums);
+    std::memset(gradient_, 0, sizeof(gradient_));
+    for (uint64_t rest = pairs; rest != 0; rest &= rest - 1) {
+      std::memset(product_[__builtin_ctzll(rest)], 0, 2 * sizeof(product_[0]));
+    }
+  }
+
+  /// Weights 1 4 6 4 1; at most 16 * 256.
+  void sumAlongX(uint32_t needed, SumRow& sums) const {
+    for (; needed != 0; needed &= needed - 1) {
+      const int x = __builtin_ctz(needed);
+      const auto product = [&](int c) { return load<Int16x8>(product_[x + c]); };
+      const Int16x8 middle = product(2);
+      store(sums[x], (product(0) + product(4)) + ((product(1) + middle + product(3)) << 2) +
+                         (middle << 1));
+    }
+  }
+
+  void labelSlab(int z, uint32_t* edges, const Thresholds& thresholds) const {
+    for (int y = 0; y < kEdge; ++y) {
+      uint32_t found = 0;
+      for (uint32_t bits = target_[z + 2 * kReach][y + 2 * kReach]; bits != 0;
+           bits &= bits - 1) {
+        const int x = __builtin_ctz(bits);
+        const bool edge = isEdge(tensorAt(x, y, z), thresholds) &&
+                          (thresholds.support == 0 || isSupported(x, y, z, thresholds.support));
+        found |= static_cast<uint32_t>(edge) << x;
+      }
+      edges[y] = found;
+    }
+  }
+
+  /// Sums along y and z, rows of equal weight first: four of them stay below 2^15.
+  Tensor tensorAt(int x, int y, int z) const {
+    const auto row = [&](int dy, int dz) {
+      return load<Int16x8>(sum_row_[(z + kReach + dz) % kSlabs][y + kReach + dy][x]);
+    };
+    const auto cross = [&](int d) { return row(d, 0) + row(-d, 0) + row(0, d) + row(0, -d); };
+    const auto square = [&](int d) { return row(d, d) + row(d, -d) + row(-d, d) + row(-d, -d); };
+    const Int16x8 four_y = row(2, 1) + row(2, -1) + row(-2, 1) + row(-2, -1);
+    const Int16x8 four_z = row(1, 2) + row(1, -2) + row(-1, 2) + row(-1, -2);
+    const Int32x8 one = __builtin_convertvector(square(2), Int32x8);
+    const Int32x8 four = __builtin_convertvector(four_y, Int32x8) +
+                         __builtin_convertvector(four_z, Int32x8);
+    const Int32x8 six = __builtin_convertvector(cross(2), Int32x8);
+    const Int32x8 sixteen = __builtin_convertvector(square(1), Int32x8);
+    const Int32x8 twenty_four = __builtin_convertvector(cross(1), Int32x8);
+    const Int32x8 thirty_six = __builtin_convertvector(row(0, 0), Int32x8);
+    const Int32x8 sum = one + ((four + six + thirty_six) << 2) + (six << 1) +
+                        ((sixteen + twenty_four) << 4) + (twenty_four << 3) + (thirty_six << 5);
+    return {sum[0] >> 4, sum[1] >> 4, sum[2] >> 4, sum[4] >> 4, sum[5] >> 4, sum[6] >> 4};
+  }
+
+  /// Whether the positions of the occupied voxels of the 7^3 cube spread in all directions:
+  /// n^2 (covariance - support I) has three positive leading minors.
+  bool isSupported(int x, int y, int z, int64_t support) const {
+    int64_t n = 0, sx = 0, sy = 0, sz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+    for (int dz = -3; dz <= 3; ++dz) {
+      const uint64_t* rows = occupiedRow(y, z + dz);
+      int plane_n = 0, plane_x = 0, plane_y = 0, plane_xy = 0, plane_xx = 0, plane_yy = 0;
+      for (int dy = -3; dy <= 3; ++dy) {
+        const auto bits = static_cast<int>((rows[dy] >> x) & 127);
+        const int count = kRowMoments.count[bits];
+        const int sum = kRowMoments.sum[bits];
+        plane_n += count;
+        plane_x += sum;
+        plane_xx += kRowMoments.squares[bits];
+        plane_y += dy * count;
+        plane_yy += dy * dy * count;
+        plane_xy += dy * sum;
+      }
+      n += plane_n;
+      sx += plane_x;
+      sy += plane_y;
+      sz += dz * plane_n;
+      xx += plane_xx;
+      yy += plane_yy;
+      zz += dz * dz * plane_n;
+      xy += plane_xy;
+      yz += dz * plane_y;
+      zx += dz * plane_x;
+    }
+    const int64_t t = (support * n * n) >> kSupportBits;
+    const Tensor m = {n * xx - sx * sx - t, n * yy - sy * sy - t, n * zz - sz * sz - t,
+                      n * xy - sx * sy,     n * yz - sy * sz,     n * zx - sz * sx};
+    const int64_t minor_z = m.xx * m.yy - m.xy * m.xy;
+    return m.xx > 0 && minor_z > 0 && characteristic(m).c0 > 0;
+  }
+
+  const uint64_t* occupied_;
+  uint64_t occupied_rows_[kRows];  // of each plane, those with a voxel
+  uint64_t target_planes_ = 0;     // bit z + 2 kReach
+  uint32_t target_[kEdge + 4 * kReach][kEdge + 4 * kReach];
+  alignas(16) int8_t gradient_[4 * (kEdge + 12)];  // cells from x = -4 on
+  alignas(16) int16_t product_[kCells][8];         // cells from x = -2 on
+  alignas(16) SumRow sum_[kSlabs][kCells];
+  alignas(16) SumRow zero_;
+  const int16_t (*sum_row_[kSlabs][kCells])[8];    // into sum_, or zero_
+};
+
+template <int kEdge>
+void labelBlock(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
+                const Thresholds& thresholds) {
+  BlockLabeller<kEdge>(occupied, targets).label(edges, thresholds);
+}
+
+LabelBlock labelBlockFor(int block_edge) {
+  return block_edge == 8 ? labelBlock<8> : block_edge == 16 ? labelBlock<16> : labelBlock<32>;
+}
+
+}  // namespace
+}  // namespace kernel
+}  // namespace edgevox

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/mapper.hpp"
+
+#include <algorithm>
+
+#include <Eigen/LU>
+
+#include "scan_sample.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kFewestVoxels = 50;
+constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
+constexpr double kLongestReach = 4.0;
+static double kTwistGain = getenv("TG")?atof(getenv("TG")):0.5;
+
+ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
+                    const Deskew& deskew) {
+  ScanSample sample(positions.size());
+  for (size_t i = 0; i < sample.size(); ++i) sample[i] = deskew(scan.voxels[positions[i]]);
+  return sample;
+}
+
+double typicalRange(const ScanSample& sample) {
+  std::vector<double> ranges(sample.size());
+  std::transform(sample.begin(), sample.end(), ranges.begin(),
+                 [](const Eigen::Vector3d& p) { return p.norm(); });
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+}  // namespace
+
+const char* name(ScanStatus status) {
+  switch (status) {
+    case ScanStatus::kFirst:
+      return "first";
+    case ScanStatus::kTracked:
+      return "tracked";
+    case ScanStatus::kFallback:
+      return "fallback";
+    case ScanStatus::kLost:
+      return "lost";
+    case ScanStatus::kStale:
+      return "stale";
+    case ScanStatus::kTooFew:
+      return "too_few";
+  }
+  return "";
+}
+
+void RunningMedian::add(double value) {
+  if (values_.size() < kWindow) {
+    values_.push_back(value);
+  } else {
+    values_[next_] = value;
+  }
+  next_ = (next_ + 1) % kWindow;
+}
+
+double RunningMedian::median() const {
+  std::vector<double> sorted = values_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+Mapper::Mapper(const Config& config, Clock clock)
+    : config_(config),
+      clock_(clock),
+      matcher_(config.matcher),
+      map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
+           config.threads) {}
+
+ScanResult Mapper::process(const VoxelScan& scan, const std::optional<Pose>& T_odom_sensor) {
+  StageTimer timer(clock_);
+  ScanResult result;
+  result.number = scan.number;
+  result.stamp = scan.stamp;
+  result.T_map_sensor = T_map_sensor_;
+  if (last_stamp_ && !(scan.stamp > *last_stamp_)) {
+    result.status = ScanStatus::kStale;
+    return result;
+  }
+  last_stamp_ = scan.stamp;
+  if (scan.voxels.size() < kFewestVoxels) {
+    result.status = ScanStatus::kTooFew;
+    return result;
+  }
+  const SweepTime sweep = sweepTime(scan);
+  Located now{scan.stamp + sweep.middle(), T_map_sensor_, T_odom_sensor};
+  if (map_.empty()) {
+    result.status = ScanStatus::kFirst;
+  } else {
+    align(scan, sweep, now, result);
+  }
+  result.times.match = timer.lap();
+  if (!result.located()) {
+    ++lost_in_a_row_;
+    return result;
+  }
+  lost_in_a_row_ = 0;
+  advance(scan, now);
+  result.T_map_sensor = T_map_sensor_;
+  insert(scan, sweep, result);
+  return result;
+}
+
+/// Deskews by the predicted motion, matches; once more by the motion that the match has shown.
+void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
+                   ScanResult& result) {
+  const auto count = std::max(config_.matcher.search_points, config_.matcher.refine_points);
+  const auto positions = sampleVoxels(scan, static_cast<size_t>(count));
+  const Pose guess = predict(now);
+  const bool has_odom = now.T_odom_sensor && last_->T_odom_sensor;
+  Twist twist = has_odom ? twistTo(now.time, guess) : twist_in_sweep_;
+  const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}), guess, result);
+  if (!found.accepted) return;
+  now.T_map_sensor = found.T_map_sensor;
+  if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
+  twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
+  const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
+                                       now.T_map_sensor, 1,
+                                       result.status == ScanStatus::kFallback);
+  now.T_map_sensor = refined.T_map_sensor;
+}
+
+/// Takes `now` as the place of the sensor and updates the motion.
+void Mapper::advance(const VoxelScan& scan, const Located& now) {
+  T_map_sensor_ = now.T_map_sensor;
+  if (last_) {
+    const Twist twist = twistTo(now.time, now.T_map_sensor);
+    twist_in_sweep_ = twistInSweep(twist);
+    T_map_sensor_ = last_->T_map_sensor * moved(twist, scan.stamp - last_->time);
+    twist_ = twist;
+  }
+  last_ = now;
+}
+
+Pose Mapper::predict(const Located& now) const {
+  if (now.T_odom_sensor && last_->T_odom_sensor) {
+    return last_->T_map_sensor * last_->T_odom_sensor->inverse() * *now.T_odom_sensor;
+  }
+  if (lost_in_a_row_ > 1) return last_->T_map_sensor;
+  return last_->T_map_sensor * moved(twist_, now.time - last_->time);
+}
+
+/// The velocity in the middle of the sweep, from the mean ones before it and before that.
+Twist Mapper::twistInSweep(const Twist& twist) const {
+  return {twist.linear + kTwistGain * (twist.linear - twist_.linear),
+          twist.angular + kTwistGain * (twist.angular - twist_.angular)};
+}
+
+Twist Mapper::twistTo(double time, const Pose& T_map_sensor) const {
+  return twistOf(last_->T_map_sensor.inverse() * T_map_sensor, time - last_->time);
+}
+
+MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, ScanResult& result) {
+  MatchRequest request;
+  request.guess = guess;
+  request.required_hit_ratio = requiredHitRatio();
+  request.reach = std::min(1.0 + lost_in_a_row_, kLongestReach);
+  request.seed = result.number;
+  const double range = typicalRange(sample);
+  const bool published = config_.matcher.mode == MatcherMode::kPublished;
+
+  result.status = ScanStatus::kTracked;
+  MatchResult match = matcher_.align(map_, sample, request);
+  const double sigma = worstSigma(match.information, range);
+  if (!match.accepted || (!published && needsFallback(match, sigma))) {
+    result.status = ScanStatus::kFallback;
+    request.all_voxels = true;
+    map_.prepareAll();
+    match = matcher_.match(map_, sample, request);
+  }
+  if (match.accepted) {
+    hit_ratios_.add(match.hit_ratio);
+    if (!published) sigmas_.add(sigma);
+    if (!published) result.covariance = kVarianceInflation * match.information.inverse();
+  } else {
+    result.status = ScanStatus::kLost;
+  }
+  result.hit_ratio = match.hit_ratio;
+  result.required_hit_ratio = request.required_hit_ratio;
+  result.matches = match.matches;
+  result.restarts = match.restarts;
+  return match;
+}
+
+bool Mapper::needsFallback(const MatchResult& match, double sigma) const {
+  const MapperConfig& c = config_.mapper;
+  return match.matches < c.fallback_matches ||
+         (!hit_ratios_.empty() && match.hit_ratio < c.fallback_hit_ratio * hit_ratios_.median()) ||
+         (!sigmas_.empty() && sigma > c.fallback_sigma * sigmas_.median());
+}
+
+double Mapper::requiredHitRatio() const {
+  const MatcherConfig& c = config_.matcher;
+  return hit_ratios_.empty() ? c.min_hit_ratio : c.relative_hit_ratio * hit_ratios_.median();
+}
+
+void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& result) {
+  StageTimer timer(clock_);
+  const Deskew deskew(sweep, twist_in_sweep_);
+  const Pose& T_map_sensor = last_->T_map_sensor;
+  std::vector<Eigen::Vector3d> centroids(scan.voxels.size());
+  std::transform(
+      scan.voxels.begin(), scan.voxels.end(), centroids.begin(),
+      [&](const ScanVoxel& voxel) -> Eigen::Vector3d { return T_map_sensor * deskew(voxel); });
+  map_.add(centroids);
+  result.times.insert = timer.lap();
+  if (map_.labelDue()) map_.label();
+  result.times.label = timer.lap();
+}
+
+void Mapper::reset() {
+  map_.clear();
+  last_.reset();
+  last_stamp_.reset();
+  T_map_sensor_ = Pose::Identity();
+  twist_ = {};
+  twist_in_sweep_ = {};
+  lost_in_a_row_ = 0;
+  hit_ratios_ = {};
+  sigmas_ = {};
+}
+
+}  // namespace edgevox

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/matcher.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "edgevox/motion.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kRestartDistance = 1.0;               // [m]
+constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
+constexpr int kFinestSearchLevel = 2;
+constexpr int kRefineSteps[] = {0, 8, 3};               // at most, of a level
+constexpr double kConvergedDistance = 5e-4;            // [m]
+constexpr double kConvergedAngle = 5e-5;               // [rad]
+constexpr float kRobustScale = 9.0F;                   // squared Mahalanobis distance
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// A move of the discrete search: translation in the map's axes, rotation about the sensor.
+using Move = Eigen::Matrix<double, 6, 1>;
+
+Pose apply(const Pose& pose, const Move& move) {
+  Pose out = pose;
+  out.translation() += move.head<3>();
+  out.linear() = rotationOf(move.tail<3>()) * pose.linear();
+  return out;
+}
+
+size_t prefix(const ScanSample& sample, size_t count) { return std::min(sample.size(), count); }
+
+double medianRange(const ScanSample& sample, size_t count) {
+  std::vector<double> ranges(count);
+  for (size_t i = 0; i < count; ++i) ranges[i] = sample[i].norm();
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+/// Number of the first `count` points that land in occupied voxels of a level.
+int score(const OccupiedVoxelMap& map, int level, const ScanSample& sample, size_t count,
+          const Pose& pose) {
+  const BitGrid<8>& occupied = map.occupied(level);
+  const double inverse_size = 1.0 / map.voxelSize(level);
+  const Eigen::Matrix3d rotation = pose.linear() * inverse_size;
+  const Eigen::Vector3d translation = pose.translation() * inverse_size;
+  int hits = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d p = rotation * sample[i] + translation;
+    hits += occupied.test(voxelAt(p, 1.0)) ? 1 : 0;
+  }
+  return hits;
+}
+
+/// Steepest ascent over `moves` until none gains; ties go to the earlier move.
+template <typename Score>
+Pose climb(const std::vector<Move>& moves, Pose pose, int& best, const Score& scoreOf) {
+  for (;;) {
+    const Move* chosen = nullptr;
+    for (const Move& move : moves) {
+      const int s = scoreOf(apply(pose, move));
+      if (s <= best) continue;
+      best = s;
+      chosen = &move;
+    }
+    if (chosen == nullptr) return pose;
+    pose = apply(pose, *chosen);
+  }
+}
+
+std::vector<Move> axisMoves(double step, double angle) {
+  std::vector<Move> moves;
+  for (int axis = 0; axis < 6; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Move move = Move::Zero();
+      move[axis] = sign * (axis < 3 ? step : angle);
+      moves.push_back(move);
+    }
+  }
+  return moves;
+}
+
+/// One translation and one rotation at once.
+std::vector<Move> coupledMoves(double step, double angle) {
+  std::vector<Move> moves;
+  for (int t = 0; t < 3; ++t) {
+    for (int r = 3; r < 6; ++r) {
+      for (const double st : {1.0, -1.0}) {
+        for (const double sr : {1.0, -1.0}) {
+          Move move = Move::Zero();
+          move[t] = st * step;
+          move[r] = sr * angle;
+          moves.push_back(move);
+        }
+      }
+    }
+  }
+  return moves;
+}
+
+/// Normal equations of one Gauss-Newton step.
+struct NormalEquations {
+  Matrix6 h = Matrix6::Zero();
+  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
+  int matches = 0;
+
+  /// Residual e of a point `lever` from the sensor; J = [I, -[lever]x].
+  void add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e, const Eigen::Vector3d& lever) {
+    Eigen::Matrix3d cross;
+    cross << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0;
+    const Eigen::Matrix3d wc = w * cross;
+    const Eigen::Vector3d we = w * e;
+    h.topLeftCorner<3, 3>() += w;
+    h.topRightCorner<3, 3>() -= wc;
+    h.bottomRightCorner<3, 3>() -= cross * wc;
+    b.head<3>() += we;
+    b.tail<3>() += lever.cross(we);
+    ++matches;
+  }
+
+  void finish() { h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose(); }
+};
+
+NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, size_t count,
+                          const Pose& pose, bool all_voxels) {
+  NormalEquations equations;
+  for (size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d lever = pose.linear() * sample[i];
+    const Eigen::Vector3d point = pose.translation() + lever;
+    float distance = 0;
+    const VoxelGaussian* g = level.nearest(point.cast<float>(), all_voxels, distance);
+    if (g == nullptr) continue;
+    const double robust = kRobustScale / (kRobustScale + distance);
+    const auto& m = g->information;
+    Eigen::Matrix3d w;
+    w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
+    equations.add(w * (robust * robust), point - g->mean.cast<double>(), lever);
+  }
+  equations.finish();
+  return equations;
+}
+
+/// Uniform in [-1, 1), the same on every machine.
+double signedUniform(uint64_t& state) {
+  state += 0x9e3779b97f4a7c15ULL;
+  return std::ldexp(static_cast<double>(mixBits(state) >> 11), -52) - 1.0;
+}
+
+Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
+  Move move;
+  for (int i = 0; i < 6; ++i) {
+    move[i] = scale * signedUniform(state) * (i < 3 ? kRestartDistance : kRestartAngle);
+  }
+  return apply(guess, move);
+}
+
+}  // namespace
+
+MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample,
+                           const MatchRequest& request) const {
+  MatchResult result = align(map, sample, request);
+  if (!result.accepted) restart(map, sample, request, result);
+  return result;
+}
+
+MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample,
+                           const MatchRequest& request) const {
+  const Pose& start = request.guess;
+  MatchResult result;
+  if (config_.mode == MatcherMode::kPublished) {
+    result.T_map_sensor = climbAsPublished(map, sample, start);
+  } else {
+    const Pose found =
+        search(map, sample, static_cast<size_t>(config_.search_points), start);
+    result = refine(map, sample, found, OccupiedVoxelMap::kGaussianLevels, request.all_voxels);
+  }
+  result.hit_ratio = hitRatio(map, sample, result.T_map_sensor);
+  result.accepted = result.hit_ratio >= request.required_hit_ratio;
+  return result;
+}
+
+void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
+                      const MatchRequest& request, MatchResult& best) const {
+  const auto points = static_cast<size_t>(config_.restart_points);
+  const size_t count = prefix(sample, points);
+  const auto coarseScore = [&](const Pose& pose) {
+    return score(map, kFinestSearchLevel, sample, count, pose);
+  };
+  uint64_t state = mixBits(request.seed + 1);
+  int best_score = coarseScore(best.T_map_sensor);
+  for (int i = 1; i <= config_.max_restarts && !best.accepted; ++i) {
+    const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
+    const Pose start = disturbed(request.guess, request.reach * growth, state);
+    const Pose found = search(map, sample, points, start);
+    best.restarts = i;
+    if (coarseScore(found) <= best_score) continue;
+    MatchRequest from_found = request;
+    from_found.guess = found;
+    MatchResult candidate = align(map, sample, from_found);
+    candidate.restarts = i;
+    if (candidate.hit_ratio <= best.hit_ratio) continue;
+    best = candidate;
+    best_score = coarseScore(best.T_map_sensor);
+  }
+}
+
+Pose Matcher::search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+                     const Pose& guess) const {
+  const size_t count = prefix(sample, points);
+  if (count == 0) return guess;
+  const double range = std::max(medianRange(sample, count), map.voxelSize(1));
+  Pose pose = guess;
+  for (int level = map.levels() - 1; level >= kFinestSearchLevel; --level) {
+    const auto scoreOf = [&](const Pose& p) { return score(map, level, sample, count, p); };
+    const double size = map.voxelSize(level);
+    int best = scoreOf(pose);
+    for (const double step : {size, size / 2}) {
+      pose = climb(axisMoves(step, step / range), pose, best, scoreOf);
+    }
+  }
+  return pose;
+}
+
+MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sample,
+                            const Pose& guess, int coarsest, bool all_voxels) const {
+  MatchResult result;
+  Pose& pose = result.T_map_sensor;
+  pose = guess;
+  const size_t count = prefix(sample, static_cast<size_t>(config_.refine_points));
+  for (int level = coarsest; level >= 1; --level) {
+    for (int step = 0; step < kRefineSteps[level]; ++step) {
+      const auto equations = linearise(map.gaussians(level), sample, count, pose, all_voxels);
+      result.matches = equations.matches;
+      result.information = equations.h;
+      if (equations.matches < 6) break;
+      const Move move = -equations.h.ldlt().solve(equations.b);
+      if (!move.allFinite()) break;
+      pose = apply(pose, move);
+      if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
+        break;
+      }
+    }
+  }
+  renormalise(pose);
+  return result;
+}
+
+/// Levels coarse to fine, one voxel and 0.5 degree * 2^level a step; a last pass at a quarter
+/// voxel and 0.125 degree.
+Pose Matcher::climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sample,
+                               const Pose& guess) const {
+  const size_t count = prefix(sample, static_cast<size_t>(config_.search_points));
+  const double half_degree = 0.5 * M_PI / 180.0;
+  Pose pose = guess;
+  const auto pass = [&](int level, double step, double angle) {
+    auto moves = axisMoves(step, angle);
+    const auto coupled = coupledMoves(step, angle);
+    moves.insert(moves.end(), coupled.begin(), coupled.end());
+    const auto scoreOf = [&](const Pose& p) { return score(map, level, sample, count, p); };
+    int best = scoreOf(pose);
+    pose = climb(moves, pose, best, scoreOf);
+  };
+  const int coarsest = std::min(map.levels() - 1, 5);
+  for (int level = coarsest; level >= 1; --level) {
+    pass(level, map.voxelSize(level), half_degree * (1 << (level - 1)));
+  }
+  pass(1, map.voxelSize(1) / 4, half_degree / 4);
+  renormalise(pose);
+  return pose;
+}
+
+double Matcher::hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
+                         const Pose& T_map_sensor) {
+  if (sample.empty()) return 0.0;
+  return static_cast<double>(score(map, 1, sample, sample.size(), T_map_sensor)) /
+         static_cast<double>(sample.size());
+}
+
+double worstSigma(const Matrix6& information, double range) {
+  Matrix6 scaled = information;  // on (translation, rotation * range)
+  scaled.topRightCorner<3, 3>() /= range;
+  scaled.bottomLeftCorner<3, 3>() /= range;
+  scaled.bottomRightCorner<3, 3>() /= range * range;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues()[0];
+  return least > 0 ? 1.0 / std::sqrt(least) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace edgevox

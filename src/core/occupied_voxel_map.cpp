@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/occupied_voxel_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "dilate.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
+constexpr size_t kGaussianBytes = 48;
+
+int levelCount(double voxel_size, double coarsest_voxel) {
+  const int coarsest = static_cast<int>(std::lround(std::log2(coarsest_voxel / voxel_size)));
+  return std::max(coarsest, OccupiedVoxelMap::kGaussianLevels) + 1;
+}
+
+/// Blocks of 8 voxels a side that hold a bit; a block of 16 counts as those of its eighths.
+size_t blocksOfEight(const BitGrid<16>& grid) {
+  size_t count = 0;
+  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
+    std::array<std::array<uint32_t, 2>, 4> any{};
+    for (size_t row = 0; row < grid.block(slot).size(); ++row) {
+      const uint32_t bits = grid.block(slot)[row];
+      auto& halves = any[(row >> 7) * 2 + ((row >> 3) & 1)];
+      halves[0] |= bits & 0xffU;
+      halves[1] |= bits >> 8;
+    }
+    for (const auto& halves : any) count += (halves[0] != 0) + (halves[1] != 0);
+  }
+  return count;
+}
+
+}  // namespace
+
+OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel,
+                                   const MapConfig& map, const EdgeConfig& edges, int threads)
+    : voxel_size_(voxel_size),
+      config_(map),
+      edge_config_(edges),
+      labeller_(edges, edges.map_support, threads),
+      occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
+  for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
+}
+
+void OccupiedVoxelMap::insert(const std::vector<Eigen::Vector3d>& centroids) {
+  add(centroids);
+  if (labelDue()) label();
+}
+
+void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids) {
+  ++scans_;
+  voxels_.clear();
+  const double limit = (kIndexLimit - 1) * voxel_size_;
+  const bool all_inside = std::all_of(
+      centroids.begin(), centroids.end(),
+      [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
+  if (all_inside) {
+    addInside(centroids);
+    return;
+  }
+  std::vector<Eigen::Vector3d> inside;
+  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(inside),
+               [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
+  ignored_ += centroids.size() - inside.size();
+  addInside(inside);
+}
+
+/// One pass a level and a step: short loops over memory that do not wait for one another.
+void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids) {
+  const double inverse_size = 1.0 / voxel_size_;
+  voxels_.resize(centroids.size());
+  slots_.resize(centroids.size());
+  std::transform(centroids.begin(), centroids.end(), voxels_.begin(),
+                 [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
+  addHits(centroids);
+  // Parents first: a voxel that is kept counts in its parent.
+  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids);
+  for (GaussianLevel& g : gaussians_) g.updateSelected();
+}
+
+bool OccupiedVoxelMap::labelDue() const {
+  return config_.representation != Representation::kAll &&
+         scans_ % static_cast<uint32_t>(config_.label_every) == 0;
+}
+
+void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    const auto next = static_cast<uint32_t>(hits_.size());
+    slots_[i] = hit_grid_.insert(voxels_[i], next);
+    if (slots_[i] == next) hits_.grow();
+  }
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    Hit& hit = hits_[slots_[i]];
+    const Eigen::Vector3f d =
+        (centroids[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
+    for (size_t k = 0; k < 3; ++k) hit.sum[k] += d[static_cast<Eigen::Index>(k)];
+    ++hit.count;
+    if (hit.last_scan == scans_) continue;
+    hit.last_scan = scans_;
+    if (++hit.hits == static_cast<uint32_t>(config_.min_hits)) {
+      hit_voxels_.set(voxels_[i]);
+      changed_.set(voxels_[i]);
+    }
+  }
+}
+
+void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids) {
+  GaussianLevel& g = level(l);
+  const bool all = config_.representation == Representation::kAll;
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    const size_t known = g.size();
+    const VoxelIndex v = coarser(voxels_[i], l);
+    slots_[i] = g.slotFor(v);
+    if (l == 1 && slots_[i] == known) markOccupied(v);
+  }
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    const bool hit = g.add(slots_[i], centroids[i], scans_);
+    if (!hit || g.cell(slots_[i]).hits != config_.min_hits) continue;
+    if (all) g.select(slots_[i], true);
+    if (!all && !g.cell(slots_[i]).kept) updateKept(l, slots_[i]);
+  }
+}
+
+void OccupiedVoxelMap::markOccupied(const VoxelIndex& v) {
+  for (int l = 1; l < levels(); ++l) {
+    if (!occupied_[static_cast<size_t>(l)].set(coarser(v, l - 1))) return;
+  }
+}
+
+bool OccupiedVoxelMap::isAnchor(const VoxelIndex& v) const {
+  return std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53) < config_.anchor_fraction;
+}
+
+void OccupiedVoxelMap::updateKept(int l, uint32_t slot) {
+  GaussianLevel& g = level(l);
+  GaussianLevel::Cell& cell = g.cell(slot);
+  const VoxelIndex v = g.voxel(slot);
+  const bool anchor = l == 1 && cell.hits >= config_.min_hits && isAnchor(v);
+  const bool kept = cell.selected_children > 0 || anchor;
+  if (kept == cell.kept) return;
+  cell.kept = kept;
+  if (config_.representation == Representation::kEdges) g.select(slot, kept);
+  if (l < kGaussianLevels) countChild(l + 1, coarser(v, 1), kept ? 1 : -1);
+}
+
+void OccupiedVoxelMap::countChild(int l, const VoxelIndex& v, int change) {
+  GaussianLevel& g = level(l);
+  const uint32_t slot = g.slotOf(v);
+  auto& children = g.cell(slot).selected_children;
+  children = static_cast<uint8_t>(children + change);
+  updateKept(l, slot);
+}
+
+void OccupiedVoxelMap::label() {
+  BitGrid<16> targets;
+  Dilation<16>(labeller_.reach(), hit_voxels_, targets).add(changed_);
+  changed_.clear();
+  std::vector<BitGrid<16>::Block> before(targets.blockCount());
+  for (size_t slot = 0; slot < before.size(); ++slot) {
+    const size_t edge_slot = edge_voxels_.insertBlock(targets.blockIndex(slot));
+    before[slot] = edge_voxels_.block(edge_slot);
+  }
+  labeller_.label(hit_voxels_, targets, edge_voxels_);
+  changeEdges(targets, before);
+  if (config_.representation == Representation::kRandom) selectRandom();
+}
+
+void OccupiedVoxelMap::changeEdges(const BitGrid<16>& targets,
+                                   const std::vector<BitGrid<16>::Block>& before) {
+  for (size_t slot = 0; slot < before.size(); ++slot) {
+    const VoxelIndex& block = targets.blockIndex(slot);
+    const auto& now = *edge_voxels_.findBlock(block);
+    BitGrid<16>::Block differs;
+    for (size_t row = 0; row < now.size(); ++row) {
+      differs[row] = static_cast<uint16_t>(now[row] ^ before[slot][row]);
+    }
+    BitGrid<16>::forEachInBlock(block, differs, [&](const VoxelIndex& v) {
+      countChild(1, coarser(v, 1), edge_voxels_.test(v) ? 1 : -1);
+    });
+  }
+}
+
+void OccupiedVoxelMap::selectRandom() {
+  for (GaussianLevel& g : gaussians_) {
+    size_t kept = 0;
+    size_t candidates = 0;
+    for (uint32_t slot = 0; slot < g.size(); ++slot) {
+      kept += g.cell(slot).kept ? 1 : 0;
+      candidates += g.cell(slot).hits >= config_.min_hits ? 1 : 0;
+    }
+    const double fraction = static_cast<double>(kept) / static_cast<double>(candidates);
+    for (uint32_t slot = 0; slot < g.size(); ++slot) {
+      const VoxelIndex& v = g.voxel(slot);
+      const bool chosen = std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53) < fraction;
+      g.select(slot, chosen && g.cell(slot).hits >= config_.min_hits);
+    }
+  }
+}
+
+void OccupiedVoxelMap::prepareAll() {
+  for (GaussianLevel& g : gaussians_) g.updateAll();
+}
+
+void OccupiedVoxelMap::clear() {
+  const size_t level_count = occupied_.size();
+  scans_ = 0;
+  ignored_ = 0;
+  hit_grid_ = {};
+  hits_ = {};
+  hit_voxels_ = {};
+  edge_voxels_ = {};
+  changed_ = {};
+  gaussians_.clear();
+  for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
+  occupied_ = std::vector<BitGrid<8>>(level_count);
+}
+
+Eigen::Vector3d OccupiedVoxelMap::centroid(const VoxelIndex& v) const {
+  const Hit& hit = hits_[hit_grid_.find(v)];
+  const Eigen::Vector3d sum(hit.sum[0], hit.sum[1], hit.sum[2]);
+  return voxelCentre(v, voxel_size_) + sum / static_cast<double>(hit.count);
+}
+
+size_t OccupiedVoxelMap::packedBytes() const {
+  const bool all = config_.representation == Representation::kAll;
+  size_t bytes = blocksOfEight(all ? hit_voxels_ : edge_voxels_) * kBitBlockBytes;
+  for (const BitGrid<8>& bits : occupied_) bytes += bits.blockCount() * kBitBlockBytes;
+  for (const GaussianLevel& g : gaussians_) {
+    bytes += g.blocksWithSelection() * kBitBlockBytes + g.selectedCount() * kGaussianBytes;
+  }
+  return bytes;
+}
+
+size_t OccupiedVoxelMap::bytes() const {
+  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
+                 edge_voxels_.bytes() + changed_.bytes();
+  for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
+  for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
+  return bytes;
+}
+
+}  // namespace edgevox

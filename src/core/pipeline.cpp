@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/pipeline.hpp"
+
+namespace edgevox {
+namespace {
+
+const Config& checked(const Config& config) {
+  validate(config);
+  return config;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(const Config& config, Clock clock)
+    : clock_(clock),
+      voxelizer_(checked(config).voxelizer, config.voxel_size),
+      extractor_(config.edges, config.threads),
+      mapper_(config, clock) {}
+
+PipelineResult Pipeline::process(const CloudView& cloud,
+                                 const std::optional<Pose>& T_odom_sensor) {
+  StageTimer timer(clock_);
+  PipelineResult result;
+  VoxelScan scan = voxelizer_.voxelize(cloud);
+  result.voxelize = timer.lap();
+  result.edges = extractor_.extract(scan);
+  result.extract = timer.lap();
+  result.scan = mapper_.process(scan, T_odom_sensor);
+  result.points = scan.points_read;
+  result.scan_voxels = scan.voxels.size();
+  result.dropped = scan.dropped;
+  return result;
+}
+
+}  // namespace edgevox

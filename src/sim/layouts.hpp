@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "sim/parts.hpp"
+#include "sim/trajectory.hpp"
+
+namespace edgevox::sim {
+
+constexpr double kHandSensorHeight = 1.4;  ///< m
+constexpr double kCarSensorHeight = 1.8;   ///< m
+
+// The solids of each world and the path through it, world frame, m.
+Solids layOutBuilding(std::uint64_t seed);
+Trajectory walkBuilding();
+
+Solids layOutStreet(std::uint64_t seed);
+Trajectory driveStreet();
+
+Solids layOutCorridor(std::uint64_t seed);
+Trajectory walkCorridor();
+
+}  // namespace edgevox::sim

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/worlds.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "sim/layouts.hpp"
+
+namespace edgevox::sim {
+
+WorldName parseWorldName(std::string_view name) {
+  if (name == "building") return WorldName::Building;
+  if (name == "street") return WorldName::Street;
+  if (name == "corridor") return WorldName::Corridor;
+  throw std::invalid_argument("unknown world '" + std::string(name) +
+                              "': building, street or corridor");
+}
+
+World makeWorld(WorldName name, std::uint64_t seed) {
+  switch (name) {
+    case WorldName::Building:
+      return World(layOutBuilding(seed));
+    case WorldName::Street:
+      return World(layOutStreet(seed));
+    case WorldName::Corridor:
+      return World(layOutCorridor(seed));
+  }
+  throw std::invalid_argument("unknown world");
+}
+
+Trajectory makeTrajectory(WorldName name) {
+  switch (name) {
+    case WorldName::Building:
+      return walkBuilding();
+    case WorldName::Street:
+      return driveStreet();
+    case WorldName::Corridor:
+      return walkCorridor();
+  }
+  throw std::invalid_argument("unknown world");
+}
+
+Trajectory makeTrajectory(WorldName name, const Sensor& sensor) {
+  const Trajectory path = makeTrajectory(name);
+  const int stations = name == WorldName::Corridor ? 8 : 12;
+  return sensor.standing ? path.stations(stations, sensor.period) : path;
+}
+
+double sensorHeight(WorldName name) {
+  return name == WorldName::Street ? kCarSensorHeight : kHandSensorHeight;
+}
+
+}  // namespace edgevox::sim

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "sim/sensor.hpp"
+#include "sim/trajectory.hpp"
+#include "sim/world.hpp"
+
+namespace edgevox::sim {
+
+enum class WorldName { Building, Street, Corridor };
+
+/// "building", "street" or "corridor". Throws std::invalid_argument otherwise.
+WorldName parseWorldName(std::string_view name);
+
+/// Two storeys with stairs, a loop of streets, or a bare corridor that ends in a room. The seed
+/// moves furniture, door leaves, façades and parked cars, never the walls of rooms.
+World makeWorld(WorldName name, std::uint64_t seed);
+
+/// The path of a carried or driven sensor through the world; building and street end where they
+/// begin. Keeps at least 0.35 m from every solid.
+Trajectory makeTrajectory(WorldName name);
+
+/// The path for this sensor: makeTrajectory, or stations along it for a standing sensor.
+Trajectory makeTrajectory(WorldName name, const Sensor& sensor);
+
+/// Height of the sensor above the ground it moves over, m.
+double sensorHeight(WorldName name);
+
+}  // namespace edgevox::sim

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "edgevox/config.hpp"
+#include "ros/sensor_frames.hpp"
+
+namespace edgevox {
+
+/// Clouds first to last of a bag, both included, counted from 0.
+struct CloudRange {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+struct MapBagOptions {
+  std::string bag;
+  std::filesystem::path output;       ///< a folder
+  std::string topic;                  ///< empty: the only one with clouds
+  std::string config;                 ///< a preset or a YAML file; empty: the defaults
+  std::vector<std::string> settings;  ///< "name=value", applied after the file
+  std::string reference;              ///< a TUM file; empty: none
+  FrameNames frames;
+  size_t stride = 1;  ///< use every stride-th cloud
+  std::vector<CloudRange> skipped;
+  bool write_occupied = false;
+};
+
+/// A command line that is wrong; the text says how.
+struct UsageError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Nothing if only the help was asked for, which is printed. Throws UsageError.
+std::optional<MapBagOptions> parseMapBagOptions(int argc, const char* const* argv);
+
+/// The configuration in force. Throws ConfigError.
+Config configOf(const MapBagOptions& options);
+
+bool isUsed(size_t cloud, const MapBagOptions& options);
+
+}  // namespace edgevox

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/map_bag_run.hpp"
+
+#include <optional>
+
+#include "edgevox/atomic_file.hpp"
+#include "edgevox/trajectory_evaluation.hpp"
+#include "tools/bag_reader.hpp"
+#include "tools/cloud_mapping.hpp"
+#include "tools/config_file.hpp"
+#include "tools/map_export.hpp"
+#include "tools/run_files.hpp"
+
+namespace edgevox {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTransformCache = 30.0 * 24 * 3600;  // [s], longer than any bag
+
+/// Also takes out of it what an earlier run may have left and this one may not write.
+void makeFolder(const fs::path& folder, const Config& config) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw FileError("cannot make the folder '" + folder.string() + "': " + error.message() +
+                    "; choose another one with --output");
+  }
+  for (const char* file : {"errors.csv", "map_occupied.ply"}) fs::remove(folder / file, error);
+  writeFile(folder / "config.yaml", yamlText(config));
+}
+
+void requireScans(const BagReader& bag, const CloudMapping& mapping) {
+  if (!mapping.scans().empty()) return;
+  std::string reasons;
+  for (const auto& [reason, count] : mapping.cloudsLeftOut()) {
+    reasons += (reasons.empty() ? "" : ", ") + reason + " " + std::to_string(count);
+  }
+  throw BagError("none of the " + std::to_string(bag.cloudCount()) + " clouds on topic '" +
+                 bag.topic() + "' could be used (" +
+                 (reasons.empty() ? "see --skip and --stride" : reasons) + ")");
+}
+
+void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
+               CloudMapping& mapping) {
+  bag.forEachCloud([&](size_t cloud, const rosbag::MessageInstance& message) {
+    if (isUsed(cloud, options)) mapping.add(cloud, BagReader::decode(message));
+    console.showProgress(cloud + 1, bag.cloudCount());
+  });
+  requireScans(bag, mapping);
+  mapping.finish();
+}
+
+void writeMap(const OccupiedVoxelMap& map, const MapBagOptions& options) {
+  const auto edges = centroidsOf(map, map.edgeVoxels());
+  writePly(options.output / "map_edges.ply", edges);
+  writePcd(options.output / "map_edges.pcd", edges);
+  if (options.write_occupied) {
+    writePly(options.output / "map_occupied.ply", centroidsOf(map, map.hitVoxels()));
+  }
+}
+
+}  // namespace
+
+Report runMapBag(const MapBagOptions& options, Console& console) {
+  const Config config = configOf(options);
+  std::optional<Trajectory> reference;
+  if (!options.reference.empty()) reference = readTum(options.reference);
+  BagReader bag(options.bag, options.topic);
+  makeFolder(options.output, config);
+
+  tf2::BufferCore transforms{ros::Duration(kTransformCache)};
+  bag.readTransforms(transforms);
+  CloudMapping mapping(config, SensorFrames(transforms, options.frames), console);
+  mapClouds(bag, options, console, mapping);
+
+  const Trajectory trajectory = mapping.trajectory();
+  writeTum(options.output / "trajectory.tum", trajectory);
+  writeMap(mapping.map(), options);
+  writeFile(options.output / "timings.csv", timingsCsv(mapping.scans()));
+  std::optional<TrajectoryErrors> errors;
+  if (reference) {
+    errors = evaluate(trajectory, *reference);
+    writeFile(options.output / "errors.csv", errorsCsv(*errors));
+  }
+  const Report summary = summarise(mapping, errors);
+  writeFile(options.output / "summary.json", summary.json());
+  return summary;
+}
+
+}  // namespace edgevox

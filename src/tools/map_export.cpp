@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/map_export.hpp"
+
+#include <pcl/exceptions.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <string>
+
+#include "edgevox/atomic_file.hpp"
+
+namespace edgevox {
+namespace {
+
+namespace fs = std::filesystem;
+
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+
+// PCL refuses to write clouds without points.
+constexpr const char* kEmptyPcd =
+    "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+    "TYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\n"
+    "DATA binary\n";
+
+PclCloud toPcl(const std::vector<Eigen::Vector3f>& points) {
+  PclCloud cloud;
+  cloud.reserve(points.size());
+  for (const Eigen::Vector3f& p : points) cloud.push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
+  return cloud;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels) {
+  std::vector<VoxelIndex> indices;
+  voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
+  std::sort(indices.begin(), indices.end());
+  std::vector<Eigen::Vector3f> points(indices.size());
+  std::transform(indices.begin(), indices.end(), points.begin(), [&](const VoxelIndex& v) {
+    return Eigen::Vector3f(map.centroid(v).cast<float>());
+  });
+  return points;
+}
+
+void writePly(const fs::path& file, const std::vector<Eigen::Vector3f>& points) {
+  static_assert(sizeof(Eigen::Vector3f) == 12, "points are packed");
+  std::string content = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                        std::to_string(points.size()) +
+                        "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  content.append(reinterpret_cast<const char*>(points.data()), points.size() * 12);
+  writeFile(file, content);
+}
+
+void writePcd(const fs::path& target, const std::vector<Eigen::Vector3f>& points) {
+  if (points.empty()) return writeFile(target, kEmptyPcd);
+  AtomicFile file(target);
+  bool written = false;
+  try {
+    written = pcl::io::savePCDFileBinary(file.temporary().string(), toPcl(points)) == 0;
+  } catch (const pcl::PCLException&) {  // PCL reports some failures so, others by its result
+  }
+  if (!written) {
+    throw FileError("cannot write '" + target.string() +
+                    "'; check that its folder may be written to and has space left");
+  }
+  file.keep();
+}
+
+}  // namespace edgevox

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the sweeps of a simulated lidar, its true trajectory and its mounting to a bag.
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/datatypes.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <boost/program_options.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "sim/scanner.hpp"
+#include "sim/worlds.hpp"
+
+namespace edgevox::sim {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+constexpr std::uint32_t kEpoch = 1700000000;  // s, the stamp of the first sweep
+constexpr const char* kWorldFrame = "world";
+constexpr const char* kSensorFrame = "lidar";
+constexpr const char* kBaseFrame = "base_link";
+
+struct Options {
+  std::string world;
+  std::string sensor;
+  fs::path output;
+  std::uint64_t seed = 1;
+  std::optional<double> duration;  // s
+  std::optional<double> noise;     // m
+  std::optional<double> dropout;
+  std::optional<double> rate;  // Hz
+};
+
+void requireRange(const char* name, const std::optional<double>& value, double low, double high) {
+  if (!value || (*value >= low && *value <= high)) return;
+  std::ostringstream message;
+  message << "--" << name << " is " << *value << ", allowed is " << low << " to " << high;
+  throw std::invalid_argument(message.str());
+}
+
+std::optional<double> numberOf(const po::variables_map& given, const char* name) {
+  if (given.count(name) == 0) return std::nullopt;
+  return given[name].as<double>();
+}
+
+po::options_description describeOptions() {
+  po::options_description description("simulate: a lidar's sweeps through a made-up world");
+  auto add = description.add_options();
+  add("help,h", "print this text");
+  add("world", po::value<std::string>()->required(), "building, street or corridor");
+  add("sensor", po::value<std::string>()->default_value("32"),
+      "16, 32 or 64 beams, or scanner (terrestrial, standing stations)");
+  add("output,o", po::value<std::string>()->required(),
+      "bag to write; the trajectory goes beside it as .tum");
+  add("seed", po::value<std::int64_t>()->default_value(1), "0 or more; same seed, same bag");
+  add("duration", po::value<double>(), "s, stop after so long (default: the whole path)");
+  add("noise", po::value<double>(), "m, standard deviation of the range (default: the sensor's)");
+  add("dropout", po::value<double>(), "share of returns left out (default: the sensor's)");
+  add("rate", po::value<double>(), "sweeps a second (default: 10, scanner 1)");
+  return description;
+}
+
+// Nothing if help was asked for and given.
+std::optional<Options> parseOptions(int argc, char** argv) {
+  const po::options_description description = describeOptions();
+  po::variables_map given;
+  po::store(po::command_line_parser(argc, argv).options(description).positional({}).run(), given);
+  if (given.count("help") > 0) {
+    std::cout << description;
+    return std::nullopt;
+  }
+  po::notify(given);
+  Options options;
+  options.world = given["world"].as<std::string>();
+  options.sensor = given["sensor"].as<std::string>();
+  options.output = given["output"].as<std::string>();
+  const auto seed = given["seed"].as<std::int64_t>();
+  if (seed < 0) throw std::invalid_argument("--seed is " + std::to_string(seed) + ", below 0");
+  options.seed = static_cast<std::uint64_t>(seed);
+  options.duration = numberOf(given, "duration");
+  options.noise = numberOf(given, "noise");
+  options.dropout = numberOf(given, "dropout");
+  options.rate = numberOf(given, "rate");
+  requireRange("duration", options.duration, 0.0, 1e5);
+  requireRange("noise", options.noise, 0.0, 1.0);
+  requireRange("dropout", options.dropout, 0.0, 1.0);
+  requireRange("rate", options.rate, 0.01, 100.0);
+  if (options.output.extension() != ".bag") {
+    throw std::invalid_argument("--output must end in .bag");
+  }
+  return options;
+}
+
+Sensor configureSensor(const Options& options) {
+  Sensor sensor = makeSensor(options.sensor);
+  sensor.noise = options.noise.value_or(sensor.noise);
+  sensor.dropout = options.dropout.value_or(sensor.dropout);
+  if (options.rate) sensor.period = 1.0 / *options.rate;
+  return sensor;
+}
+
+ros::Time stampOf(double seconds) {
+  const auto nanoseconds = static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+  return ros::Time(kEpoch + static_cast<std::uint32_t>(nanoseconds / 1000000000u),
+                   static_cast<std::uint32_t>(nanoseconds % 1000000000u));
+}
+
+sensor_msgs::PointField makeField(const char* name, std::uint32_t offset, std::uint8_t type) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = offset;
+  field.datatype = type;
+  field.count = 1;
+  return field;
+}
+
+sensor_msgs::PointCloud2 toCloud(const Scan& scan, std::uint32_t sequence) {
+  using Field = sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.seq = sequence;
+  cloud.header.stamp = stampOf(scan.stamp);
+  cloud.header.frame_id = kSensorFrame;
+  cloud.fields = {makeField("x", 0, Field::FLOAT32),    makeField("y", 4, Field::FLOAT32),
+                  makeField("z", 8, Field::FLOAT32),    makeField("intensity", 12, Field::FLOAT32),
+                  makeField("ring", 16, Field::UINT16), makeField("time", 20, Field::FLOAT32)};
+  cloud.point_step = 24;
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(scan.size());
+  cloud.row_step = cloud.point_step * cloud.width;
+  cloud.is_bigendian = 0;
+  cloud.is_dense = 1;
+  cloud.data.resize(cloud.row_step);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    std::uint8_t* point = &cloud.data[i * cloud.point_step];
+    std::memcpy(point, scan.points[i].data(), 12);
+    std::memcpy(point + 12, &scan.intensities[i], 4);
+    std::memcpy(point + 16, &scan.rings[i], 2);
+    std::memcpy(point + 20, &scan.times[i], 4);
+  }
+  return cloud;
+}
+
+template <typename Message>
+void assign(const Eigen::Vector3d& vector, Message& message) {
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+}
+
+// Pose and velocity in the sensor's frame; the covariances are zero, as this is the truth.
+nav_msgs::Odometry toOdometry(const Trajectory& trajectory, double time, std::uint32_t sequence) {
+  constexpr double kHalfStep = 0.005;  // s, of the difference that gives the velocity
+  const Eigen::Isometry3d T_world_sensor = trajectory.poseAt(time);
+  const Eigen::Isometry3d before = trajectory.poseAt(time - kHalfStep);
+  const Eigen::Isometry3d after = trajectory.poseAt(time + kHalfStep);
+  const Eigen::Quaterniond q(T_world_sensor.linear());
+  const Eigen::Vector3d velocity = T_world_sensor.linear().transpose() *
+                                   (after.translation() - before.translation()) / (2 * kHalfStep);
+  const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
+  const Eigen::Vector3d rate = turn.axis() * turn.angle() / (2 * kHalfStep);
+  nav_msgs::Odometry odometry;
+  odometry.header.seq = sequence;
+  odometry.header.stamp = stampOf(time);
+  odometry.header.frame_id = kWorldFrame;
+  odometry.child_frame_id = kSensorFrame;
+  assign(T_world_sensor.translation(), odometry.pose.pose.position);
+  assign(q.vec(), odometry.pose.pose.orientation);
+  odometry.pose.pose.orientation.w = q.w();
+  assign(velocity, odometry.twist.twist.linear);
+  assign(rate, odometry.twist.twist.angular);
+  return odometry;
+}
+
+void writeMounting(rosbag::Bag& bag, double height) {
+  geometry_msgs::TransformStamped mounting;
+  mounting.header.stamp = stampOf(0.0);
+  mounting.header.frame_id = kBaseFrame;
+  mounting.child_frame_id = kSensorFrame;
+  mounting.transform.translation.z = height;
+  mounting.transform.rotation.w = 1.0;
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(mounting);
+  namespace traits = ros::message_traits;
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = traits::datatype(message);
+  (*header)["md5sum"] = traits::md5sum(message);
+  (*header)["message_definition"] = traits::definition(message);
+  (*header)["latching"] = "1";
+  bag.write("/tf_static", stampOf(0.0), message, header);
+}
+
+// stamp tx ty tz qx qy qz qw of T_world_sensor.
+void writeTumLine(std::ostream& out, const nav_msgs::Odometry& odometry) {
+  const auto& p = odometry.pose.pose.position;
+  const auto& q = odometry.pose.pose.orientation;
+  char line[256];
+  std::snprintf(line, sizeof line, "%u.%09u %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
+                odometry.header.stamp.sec, odometry.header.stamp.nsec, p.x, p.y, p.z, q.x, q.y, q.z,
+                q.w);
+  out << line;
+}
+
+// A file written under another name in the same folder, and removed unless it was kept.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(fs::path target)
+      : target_(std::move(target)), path_(target_.string() + ".part") {}
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+  ~UnfinishedFile() {
+    std::error_code ignored;
+    if (!kept_) fs::remove(path_, ignored);
+  }
+
+  const fs::path& path() const { return path_; }
+
+  void keep() {
+    fs::rename(path_, target_);
+    kept_ = true;
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+  bool kept_ = false;
+};
+
+struct Run {
+  World world;
+  Sensor sensor;
+  Trajectory trajectory;
+  int sweeps;
+};
+
+Run prepareRun(const Options& options) {
+  const WorldName name = parseWorldName(options.world);
+  const Sensor sensor = configureSensor(options);
+  Trajectory trajectory = makeTrajectory(name, sensor);
+  int sweeps = countSweeps(trajectory, sensor);
+  if (options.duration) {
+    sweeps =
+        std::min(sweeps, static_cast<int>(std::floor(*options.duration / sensor.period + 1e-9)));
+  }
+  if (sweeps < 1) throw std::invalid_argument("--duration is shorter than one sweep");
+  return {makeWorld(name, options.seed), sensor, std::move(trajectory), sweeps};
+}
+
+void writeSweeps(const Run& run, std::uint64_t seed, rosbag::Bag& bag, std::ostream& tum) {
+  const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  const int batch = 2 * static_cast<int>(threads);
+  for (int first = 0; first < run.sweeps; first += batch) {
+    const int count = std::min(batch, run.sweeps - first);
+    const auto scans =
+        simulateSweeps(run.world, run.trajectory, run.sensor, first, count, seed, threads);
+    for (const Scan& scan : scans) {
+      const auto sequence = static_cast<std::uint32_t>(first + (&scan - scans.data()));
+      const nav_msgs::Odometry truth = toOdometry(run.trajectory, scan.stamp, sequence);
+      bag.write("/ground_truth", truth.header.stamp, truth);
+      bag.write("/points", truth.header.stamp, toCloud(scan, sequence));
+      writeTumLine(tum, truth);
+    }
+    std::cerr << "\rsweep " << first + count << " of " << run.sweeps << std::flush;
+  }
+  std::cerr << "\n";
+}
+
+void simulate(const Options& options) {
+  const Run run = prepareRun(options);
+  fs::path tum_target = options.output;
+  tum_target.replace_extension(".tum");
+  UnfinishedFile bag_file(options.output);
+  UnfinishedFile tum_file(tum_target);
+  std::ofstream tum(tum_file.path());
+  if (!tum) throw std::runtime_error("cannot write " + tum_file.path().string());
+  rosbag::Bag bag;
+  bag.open(bag_file.path().string(), rosbag::bagmode::Write);
+  bag.setCompression(rosbag::compression::LZ4);
+  writeMounting(bag, sensorHeight(parseWorldName(options.world)));
+  writeSweeps(run, options.seed, bag, tum);
+  bag.close();
+  tum.close();
+  if (!tum) throw std::runtime_error("cannot write " + tum_file.path().string());
+  bag_file.keep();
+  tum_file.keep();
+}
+
+}  // namespace
+}  // namespace edgevox::sim
+
+int main(int argc, char** argv) {
+  try {
+    const auto options = edgevox::sim::parseOptions(argc, argv);
+    if (options) edgevox::sim::simulate(*options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The incremental map against everything recomputed from all centroids at once.
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gtest/gtest.h>
+
+#include "edgevox/occupied_voxel_map.hpp"
+#include "support/scans.hpp"
+
+namespace edgevox::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSize = kScanMapVoxel;
+constexpr double kCoarsest = 3.2;  // [m]
+
+OccupiedVoxelMap makeMap(const MapConfig& config, int threads = 1) {
+  return OccupiedVoxelMap(kSize, kCoarsest, config, EdgeConfig{}, threads);
+}
+
+MapConfig withLabelEvery(int scans) {
+  MapConfig config;
+  config.label_every = scans;
+  return config;
+}
+
+MapConfig withRepresentation(Representation representation) {
+  MapConfig config;
+  config.representation = representation;
+  return config;
+}
+
+Voxels labelledAtOnce(const Voxels& hit) {
+  const auto occupied = gridOf<32>(hit);
+  BitGrid<32> edges;
+  const EdgeConfig config;
+  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, edges);
+  return voxelsOf(edges);
+}
+
+Voxels parents(Voxels voxels) {
+  for (VoxelIndex& v : voxels) v = coarser(v, 1);
+  return sorted(std::move(voxels));
+}
+
+/// Voxels of level 1 over an edge, and those that the hash makes anchors.
+Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges,
+                      const MapConfig& config) {
+  Voxels selected = parents(edges);
+  for (const VoxelIndex& v : withHits(accumulate(scans, 1), config.min_hits)) {
+    const double lot = static_cast<double>(voxelHash(v) >> 11) * 0x1.0p-53;
+    if (lot < config.anchor_fraction) selected.push_back(v);
+  }
+  return sorted(std::move(selected));
+}
+
+Voxels selectedIn(const OccupiedVoxelMap& map, int level, const AccumulatedCells& cells) {
+  Voxels selected;
+  for (const auto& entry : cells) {
+    if (map.gaussians(level).find(entry.first, false) != nullptr) selected.push_back(entry.first);
+  }
+  return selected;
+}
+
+void expectMapOf(const std::vector<Centroids>& scans, const OccupiedVoxelMap& map,
+                 const MapConfig& config) {
+  const Voxels hit = withHits(accumulate(scans, 0), config.min_hits);
+  EXPECT_TRUE(sameVoxels(hit, voxelsOf(map.hitVoxels())));
+  const Voxels edges = labelledAtOnce(hit);
+  EXPECT_TRUE(sameVoxels(edges, voxelsOf(map.edgeVoxels())));
+  Voxels selected = selectedAtOnce(scans, edges, config);
+  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+    EXPECT_TRUE(sameVoxels(selected, selectedIn(map, level, accumulate(scans, level)))) << level;
+    EXPECT_EQ(selected.size(), map.gaussians(level).selectedCount());
+    selected = parents(selected);
+  }
+}
+
+OccupiedVoxelMap mapOf(const std::vector<Centroids>& scans, const MapConfig& config,
+                       int threads = 1) {
+  OccupiedVoxelMap map = makeMap(config, threads);
+  for (const Centroids& scan : scans) map.insert(scan);
+  map.label();
+  return map;
+}
+
+TEST(Labels, AreThoseOfTheWholeMapHoweverBatched) {
+  const auto scans = randomScans(1, 7);
+  for (const int every : {1, 2, 5}) {
+    SCOPED_TRACE(every);
+    expectMapOf(scans, mapOf(scans, withLabelEvery(every)), withLabelEvery(every));
+  }
+}
+
+TEST(Labels, AreThoseOfTheWholeMapAfterEveryScan) {
+  const auto scans = randomScans(2, 7);
+  const MapConfig config = withLabelEvery(1);
+  OccupiedVoxelMap map = makeMap(config);
+  Voxels before;
+  size_t lost = 0;
+  for (size_t scan = 0; scan < scans.size(); ++scan) {
+    map.insert(scans[scan]);
+    expectMapOf({scans.begin(), scans.begin() + static_cast<long>(scan) + 1}, map, config);
+    lost += difference(before, voxelsOf(map.edgeVoxels())).size();
+    before = voxelsOf(map.edgeVoxels());
+  }
+  RecordProperty("edges", static_cast<int>(before.size()));
+  RecordProperty("labels_lost", static_cast<int>(lost));
+  EXPECT_GT(before.size(), 1000U);
+  EXPECT_GT(lost, 100U);  // so that taking labels back is put to the test
+}
+
+TEST(Labels, ComeEveryFewScans) {
+  const auto scans = randomScans(3, 4);
+  OccupiedVoxelMap map = makeMap(withLabelEvery(4));
+  for (int scan = 0; scan < 3; ++scan) map.insert(scans[static_cast<size_t>(scan)]);
+  EXPECT_EQ(0U, map.edgeVoxels().voxelCount());
+  map.insert(scans[3]);
+  EXPECT_GT(map.edgeVoxels().voxelCount(), 100U);
+}
+
+TEST(Labels, DoNotDependOnTheThreads) {
+  const auto scans = randomScans(4, 4);
+  const Voxels expected = voxelsOf(mapOf(scans, {}, 1).edgeVoxels());
+  EXPECT_TRUE(sameVoxels(expected, voxelsOf(mapOf(scans, {}, 2).edgeVoxels())));
+}
+
+Centroids centresOf(const Voxels& voxels) {
+  Centroids centres;
+  for (const VoxelIndex& v : voxels) centres.push_back(voxelCentre(v, kSize));
+  return centres;
+}
+
+TEST(Labels, FollowSingleVoxelsOverTheirWholeReach) {
+  Random random(17);
+  MapConfig config = withLabelEvery(1);
+  config.min_hits = 1;
+  OccupiedVoxelMap map = makeMap(config);
+  map.insert(centresOf(randomCloud(random, 14, 0.1)));  // across eight blocks
+  for (int i = 0; i < 600; ++i) {
+    map.insert(centresOf({random.voxelIn(-7, 6)}));
+    const Voxels hit = voxelsOf(map.hitVoxels());
+    ASSERT_TRUE(sameVoxels(labelledAtOnce(hit), voxelsOf(map.edgeVoxels())));
+  }
+}
+
+TEST(Labels, OneHitMayBeEnough) {
+  const auto scans = randomScans(5, 3);
+  MapConfig config;
+  config.min_hits = 1;
+  expectMapOf(scans, mapOf(scans, config), config);
+}
+
+TEST(Labels, AnchorsMayBeNoneOrAll) {
+  const auto scans = randomScans(6, 3);
+  for (const double fraction : {0.0, 1.0}) {
+    MapConfig config;
+    config.anchor_fraction = fraction;
+    expectMapOf(scans, mapOf(scans, config), config);
+  }
+}
+
+TEST(Hits, CountScansNotCentroids) {
+  OccupiedVoxelMap map = makeMap({});
+  const Centroids three = {{1.01, 0.01, 0.01}, {1.02, 0.01, 0.01}, {1.03, 0.01, 0.01}};
+  const VoxelIndex v{10, 0, 0};
+  map.insert(three);
+  EXPECT_FALSE(map.hitVoxels().test(v));
+  map.insert({});
+  EXPECT_FALSE(map.hitVoxels().test(v));
+  map.insert({three[0]});
+  EXPECT_TRUE(map.hitVoxels().test(v));
+  EXPECT_EQ(3U, map.scans());
+  const GaussianLevel& level = map.gaussians(1);
+  EXPECT_EQ(2, level.cell(level.slotOf({5, 0, 0})).hits);
+  EXPECT_EQ(4U, level.cell(level.slotOf({5, 0, 0})).count);
+}
+
+TEST(Centroid, IsTheMeanOfAllThatFellIn) {
+  const auto scans = randomScans(7, 4);
+  const OccupiedVoxelMap map = mapOf(scans, {});
+  for (const auto& [v, cell] : accumulate(scans, 0)) {
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& centroid : cell.centroids) mean += centroid;
+    mean /= static_cast<double>(cell.centroids.size());
+    ASSERT_LT((map.centroid(v) - mean).norm(), 1e-7);
+  }
+}
+
+TEST(Levels, HoldTheBitsOfAllCentroids) {
+  const auto scans = randomScans(8, 2);
+  const OccupiedVoxelMap map = mapOf(scans, {});
+  ASSERT_EQ(6, map.levels());  // 0.1 to 3.2 m
+  for (int level = 1; level < map.levels(); ++level) {
+    EXPECT_DOUBLE_EQ(kSize * (1 << level), map.voxelSize(level));
+    const Voxels all = withHits(accumulate(scans, level), 1);
+    EXPECT_TRUE(sameVoxels(all, voxelsOf(map.occupied(level)))) << level;
+  }
+}
+
+TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
+  const auto scans = randomScans(12, 4);
+  const MapConfig config = withRepresentation(Representation::kAll);
+  OccupiedVoxelMap map = makeMap(config);
+  for (const Centroids& scan : scans) map.insert(scan);
+  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+    const AccumulatedCells cells = accumulate(scans, level);
+    EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), selectedIn(map, level, cells)));
+  }
+  const Voxels before = selectedIn(map, 1, accumulate(scans, 1));
+  map.label();  // for the edges alone; the selection stays
+  EXPECT_GT(map.edgeVoxels().voxelCount(), 100U);
+  EXPECT_TRUE(sameVoxels(before, selectedIn(map, 1, accumulate(scans, 1))));
+}
+
+TEST(Representations, RandomSelectsAsManyAsEdges) {
+  const auto scans = randomScans(13, 4, {140, 110, 60});
+  const OccupiedVoxelMap edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const OccupiedVoxelMap random = mapOf(scans, withRepresentation(Representation::kRandom));
+  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+    const auto expected = static_cast<double>(edges.gaussians(level).selectedCount());
+    const auto actual = static_cast<double>(random.gaussians(level).selectedCount());
+    RecordProperty("edges_" + std::to_string(level), static_cast<int>(expected));
+    RecordProperty("random_" + std::to_string(level), static_cast<int>(actual));
+    EXPECT_NEAR(expected, actual, 0.05 * expected) << level;
+    const AccumulatedCells cells = accumulate(scans, level);
+    const Voxels often = withHits(cells, MapConfig{}.min_hits);
+    EXPECT_TRUE(difference(selectedIn(random, level, cells), often).empty());
+  }
+}
+
+TEST(Representations, EdgesPackSmallerThanAll) {
+  const auto scans = randomScans(14, 5);
+  const OccupiedVoxelMap edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const OccupiedVoxelMap all = mapOf(scans, withRepresentation(Representation::kAll));
+  const double ratio =
+      static_cast<double>(all.packedBytes()) / static_cast<double>(edges.packedBytes());
+  RecordProperty("all_to_edges", std::to_string(ratio));
+  RecordProperty("packed_of_held", std::to_string(static_cast<double>(edges.packedBytes()) /
+                                                  static_cast<double>(edges.bytes())));
+  EXPECT_GT(ratio, 1.2);
+  EXPECT_LT(edges.packedBytes(), edges.bytes() / 4);
+}
+
+TEST(Clear, ReturnsToANewMap) {
+  const auto first = randomScans(15, 3);
+  const auto second = randomScans(16, 5);
+  OccupiedVoxelMap map = mapOf(first, {});
+  map.insert({{1e9, 0, 0}});
+  map.clear();
+  EXPECT_TRUE(map.empty());
+  EXPECT_EQ(0U, map.ignoredCentroids());
+  EXPECT_EQ(makeMap({}).packedBytes(), map.packedBytes());
+  EXPECT_EQ(makeMap({}).bytes(), map.bytes());
+  EXPECT_EQ(makeMap({}).levels(), map.levels());
+
+  for (const Centroids& scan : second) map.insert(scan);
+  map.label();
+  expectMapOf(second, map, {});
+  EXPECT_EQ(mapOf(second, {}).packedBytes(), map.packedBytes());
+}
+
+TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  const double limit = kIndexLimit * kSize;
+  Centroids bad;
+  for (const double value : {nan, inf, -inf, 1e9, -1e30, limit, -limit - kSize}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector3d centroid(1, 2, 3);
+      centroid[axis] = value;
+      bad.push_back(centroid);
+    }
+  }
+  OccupiedVoxelMap map = makeMap(withLabelEvery(1));
+  map.insert(bad);
+  map.insert(bad);
+  EXPECT_EQ(2 * bad.size(), map.ignoredCentroids());
+  EXPECT_EQ(0U, map.hitVoxels().voxelCount());
+  EXPECT_EQ(0U, map.gaussians(1).size());
+}
+
+TEST(OutOfRange, VoxelsNearTheLimitAreKept) {
+  const double near = (kIndexLimit - 2) * kSize;
+  OccupiedVoxelMap map = makeMap(withLabelEvery(1));
+  for (int scan = 0; scan < 2; ++scan) map.insert({{near, near, near}, {-near, -near, -near}});
+  EXPECT_EQ(0U, map.ignoredCentroids());
+  EXPECT_EQ(2U, map.hitVoxels().voxelCount());
+}
+
+}  // namespace
+}  // namespace edgevox::test

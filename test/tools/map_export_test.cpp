@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/map_export.hpp"
+
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+#include <vector>
+
+#include "edgevox/atomic_file.hpp"
+#include "support/temp_folder.hpp"
+
+namespace edgevox {
+namespace {
+
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+using Points = std::vector<Eigen::Vector3f>;
+
+void expectPoints(const PclCloud& cloud, const Points& points) {
+  ASSERT_EQ(cloud.size(), points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(Eigen::Vector3f(cloud[i].getVector3fMap()), points[i]);
+  }
+}
+
+TEST(MapExport, pclReadsWhatIsWritten) {
+  const test::TempFolder folder;
+  const Points points = {{1, 2, 3}, {-0.5F, 1e-6F, 1e6F}, {0, 0, 0}};
+  writePly(folder / "map.ply", points);
+  writePcd(folder / "map.pcd", points);
+  PclCloud ply;
+  PclCloud pcd;
+  ASSERT_EQ(pcl::io::loadPLYFile((folder / "map.ply").string(), ply), 0);
+  ASSERT_EQ(pcl::io::loadPCDFile((folder / "map.pcd").string(), pcd), 0);
+  expectPoints(ply, points);
+  expectPoints(pcd, points);
+}
+
+TEST(MapExport, mapWithoutPoints) {
+  const test::TempFolder folder;
+  writePly(folder / "map.ply", {});
+  writePcd(folder / "map.pcd", {});
+  pcl::PCLPointCloud2 header;
+  EXPECT_GE(pcl::PCDReader().readHeader((folder / "map.pcd").string(), header), 0);
+  EXPECT_EQ(header.width, 0U);
+  EXPECT_EQ(header.fields.size(), 3U);
+  EXPECT_GT(std::filesystem::file_size(folder / "map.ply"), 0U);
+}
+
+TEST(MapExport, failuresAreReported) {
+  const test::TempFolder folder;
+  EXPECT_THROW(writePly(folder / "none" / "map.ply", {{1, 2, 3}}), FileError);
+  EXPECT_THROW(writePcd(folder / "none" / "map.pcd", {{1, 2, 3}}), FileError);
+}
+
+TEST(MapExport, centroidsInTheOrderOfVoxels) {
+  OccupiedVoxelMap map(0.1, 3.2, MapConfig(), EdgeConfig(), 1);
+  const std::vector<Eigen::Vector3d> centroids = {
+      {0.05, 0.05, 0.35}, {0.95, 0.05, 0.05}, {0.07, 0.05, 0.05}, {0.05, 0.35, 0.05}};
+  map.insert(centroids);
+  map.insert(centroids);
+  const Points points = centroidsOf(map, map.hitVoxels());
+  ASSERT_EQ(points.size(), 4U);
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t from[] = {2, 1, 3, 0};
+    EXPECT_LT((points[i] - centroids[from[i]].cast<float>()).norm(), 1e-6F) << i;
+  }
+}
+
+}  // namespace
+}  // namespace edgevox
