@@ -79,14 +79,12 @@ struct BlockLayout {
   static constexpr int kShift = kEdge == 8 ? 3 : kEdge == 16 ? 4 : 5;
   static constexpr int kRows = kEdge * kEdge;
   static constexpr int kVoxels = kEdge * kEdge * kEdge;
-  using Row = std::conditional_t<kEdge == 8, uint8_t,
-                                 std::conditional_t<kEdge == 16, uint16_t, uint32_t>>;
+  using Row =
+      std::conditional_t<kEdge == 8, uint8_t, std::conditional_t<kEdge == 16, uint16_t, uint32_t>>;
 
   static VoxelIndex block(const VoxelIndex& v) { return coarser(v, kShift); }
   static int column(const VoxelIndex& v) { return v.x & (kEdge - 1); }
-  static int row(const VoxelIndex& v) {
-    return (v.z & (kEdge - 1)) * kEdge + (v.y & (kEdge - 1));
-  }
+  static int row(const VoxelIndex& v) { return (v.z & (kEdge - 1)) * kEdge + (v.y & (kEdge - 1)); }
   static int cell(const VoxelIndex& v) { return row(v) * kEdge + column(v); }
   static VoxelIndex voxel(const VoxelIndex& block, int row, int column) {
     return {block.x * kEdge + column, block.y * kEdge + (row & (kEdge - 1)),
@@ -128,14 +126,16 @@ class BitGrid {
     return removed;
   }
 
-  /// The slot of a block, made empty if it is new. 
+  /// The slot of a block, made empty if it is new.
   size_t insertBlock(const VoxelIndex& block) {
-    const auto slot = static_cast<size_t>(table_.findOrInsert(block));
-    if (slot == used_) {
+    if (used_ != 0 && block == last_index_) return last_slot_;
+    last_index_ = block;
+    last_slot_ = static_cast<size_t>(table_.findOrInsert(block));
+    if (last_slot_ == used_) {
       if (used_ == blocks_.size()) blocks_.emplace_back();
       blocks_[used_++].fill(0);
     }
-    return slot;
+    return last_slot_;
   }
 
   /// Null when the block holds nothing.
@@ -152,7 +152,9 @@ class BitGrid {
   size_t voxelCount() const {
     size_t count = 0;
     for (size_t slot = 0; slot < used_; ++slot) {
-      for (const Row row : blocks_[slot]) count += static_cast<size_t>(__builtin_popcount(row));
+      for (const Row row : blocks_[slot]) {
+        if (row != 0) count += static_cast<size_t>(__builtin_popcount(row));
+      }
     }
     return count;
   }
@@ -187,6 +189,8 @@ class BitGrid {
   BlockTable table_;
   std::deque<Block> blocks_;  // the first used_ belong to the table's slots
   size_t used_ = 0;
+  VoxelIndex last_index_;  // of the last insertBlock()
+  size_t last_slot_ = 0;
 };
 
 /// From a voxel to a number given at its insertion: where its data are kept.

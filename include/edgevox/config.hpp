@@ -51,13 +51,13 @@ struct MapConfig {
 
 struct MatcherConfig {
   MatcherMode mode = MatcherMode::kRefined;
-  double coarsest_voxel = 6.4;      ///< of the search, rounded to voxel_size * 2^k [m]
+  double coarsest_voxel = 6.4;  ///< of the search, rounded to voxel_size * 2^k [m]
   int search_points = 1000;
   int refine_points = 3000;
   int restart_points = 300;
   int max_restarts = 60;
-  double min_hit_ratio = 0.5;       ///< of an accepted match, before there is a history
-  double relative_hit_ratio = 0.75; ///< of an accepted match, of the running median
+  double min_hit_ratio = 0.5;        ///< of an accepted match, before there is a history
+  double relative_hit_ratio = 0.75;  ///< of an accepted match, of the running median
 };
 
 struct MapperConfig {

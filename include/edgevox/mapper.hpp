@@ -34,8 +34,8 @@ struct MapperTimes {
 struct ScanResult {
   ScanStatus status = ScanStatus::kLost;
   uint64_t number = 0;
-  double stamp = 0.0;                      ///< [s]
-  Pose T_map_sensor = Pose::Identity();    ///< at the stamp; the last good one if not located()
+  double stamp = 0.0;                    ///< [s]
+  Pose T_map_sensor = Pose::Identity();  ///< at the stamp; the last good one if not located()
   /// Of (translation, rotation vector about the sensor), in the map's axes; m, rad.
   Matrix6 covariance = Matrix6::Zero();
   double hit_ratio = 0.0;
@@ -98,14 +98,15 @@ class Mapper {
   MatchResult locate(const ScanSample& sample, const Pose& guess, ScanResult& result);
   bool needsFallback(const MatchResult& match, double sigma) const;
   double requiredHitRatio() const;
+  double trustedHitRatio() const;
   void insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& result);
 
   Config config_;
   Clock clock_;
   Matcher matcher_;
   OccupiedVoxelMap map_;
-  std::optional<double> last_stamp_;           // of the last scan, located or not [s]
-  Pose T_map_sensor_ = Pose::Identity();       // at the stamp of the last located scan
+  std::optional<double> last_stamp_;      // of the last scan, located or not [s]
+  Pose T_map_sensor_ = Pose::Identity();  // at the stamp of the last located scan
   std::optional<Located> last_;
   Twist twist_;           // from the last but one located sweep to the last
   Twist twist_in_sweep_;  // in the last one

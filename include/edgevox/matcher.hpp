@@ -21,19 +21,21 @@ using ScanSample = std::vector<Eigen::Vector3d>;
 struct MatchRequest {
   Pose guess = Pose::Identity();  ///< T_map_sensor
   double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
-  double reach = 1.0;             ///< widening of the restarts; 1 is 1 m and 25 degrees
+  double trusted_hit_ratio = 0;   ///< a refinement that reaches it from the guess needs no search
+  double reach = 1.0;             ///< how far from the guess; 1 is the configured distance
   bool all_voxels = false;        ///< refine against all occupied voxels
   uint64_t seed = 0;              ///< of the restarts
 };
 
 struct MatchResult {
   Pose T_map_sensor = Pose::Identity();
-  double hit_ratio = 0.0;  ///< of the sample, in occupied voxels of level 1
+  double hit_ratio = 0.0;  ///< see Matcher::hitRatio
   int matches = 0;         ///< points with a Gaussian in the last refinement step
+  double fit = 0.0;        ///< mean robust weight of the refined points, 0 where there is no match
   int restarts = 0;
   /// Of the last step, on (translation, rotation vector about the sensor), in the map's axes.
   Matrix6 information = Matrix6::Zero();
-  bool accepted = false;   ///< hit_ratio >= required_hit_ratio
+  bool accepted = false;  ///< hit_ratio >= required_hit_ratio, and near enough to the guess
 };
 
 /// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
@@ -56,11 +58,15 @@ class Matcher {
   /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set.
   MatchResult refine(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& guess,
                      int coarsest, bool all_voxels) const;
-  /// Fraction of the sample in occupied voxels of level 1.
+  /// Fraction of the sample's points in occupied voxels of level 1, of those in occupied voxels
+  /// eight times the finest: points of a place not mapped yet tell nothing. If less than a quarter
+  /// of the sample is known, of that quarter.
   static double hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
                          const Pose& T_map_sensor);
 
  private:
+  MatchResult verified(const OccupiedVoxelMap& map, const ScanSample& sample,
+                       const MatchRequest& request, MatchResult result) const;
   void restart(const OccupiedVoxelMap& map, const ScanSample& sample, const MatchRequest& request,
                MatchResult& best) const;
   Pose climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sample,

@@ -22,6 +22,13 @@ struct VoxelGaussian {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< [m]
   /// xx, yy, zz, xy, yz, zx of C^-1 - lambda_min(C^-1) I [1/m^2]: none along the surface
   std::array<float, 6> information{};
+  /// A surface is not seen from behind: only points whose unit vector to the sensor has a product
+  /// above -1 with `side` are of this one.
+  Eigen::Vector3f side = Eigen::Vector3f::Zero();
+  uint32_t twin = kNoTwin;  ///< the surface in the same voxel seen from the other side
+
+  static constexpr uint32_t kNoTwin = 0xffffffff;
+  bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
 };
 
 /// The voxels of one size with their Gaussians. Which of them are `selected` depends on the
@@ -31,34 +38,33 @@ class GaussianLevel {
   struct Cell {
     std::array<float, 3> sum{};    ///< of the centroids, from the voxel's centre [m]
     std::array<float, 6> outer{};  ///< xx, yy, zz, xy, yz, zx of the same [m^2]
+    std::array<float, 3> view{};   ///< sum of the unit vectors to the sensor
     uint32_t count = 0;            ///< centroids
     uint32_t last_scan = 0;
-    uint16_t hits = 0;             ///< scans
-    uint8_t selected_children = 0; ///< finer voxels that are edges or selected
-    bool kept = false;             ///< an edge or an anchor, or holds one
-    bool stale = false;            ///< changed since its Gaussian was computed
+    uint16_t hits = 0;              ///< scans
+    uint8_t selected_children = 0;  ///< finer voxels that are edges or selected
+    bool kept = false;              ///< an edge or an anchor, or holds one
+    bool stale = false;             ///< changed since its Gaussian was computed
+    bool is_twin = false;           ///< only sums, count and view are its own
   };
 
   explicit GaussianLevel(double voxel_size) : voxel_size_(voxel_size) {}
 
   double voxelSize() const { return voxel_size_; }
 
-  /// Null if the voxel is not selected or, for `all`, not occupied. Gaussians of voxels that are
-  /// not selected are as of the last updateAll().
-  const VoxelGaussian* find(const VoxelIndex& v, bool all) const {
-    const int32_t block = grid_.findBlock(Layout::block(v));
-    if (block == BlockTable::kNone) return nullptr;
-    return findInBlock(static_cast<size_t>(block), v, all);
-  }
-
-  /// Of the voxel and its six neighbours the one nearest to `point` by its information; its
-  /// squared Mahalanobis distance goes to `distance`. Null if none is there.
-  const VoxelGaussian* nearest(const Eigen::Vector3f& point, bool all, float& distance) const;
+  /// Of the voxel and its six neighbours the surface nearest to `point` by its information, of
+  /// those that face `to_sensor` (a unit vector) and are selected or, for `all`, occupied. Its
+  /// squared Mahalanobis distance goes to `distance`. Null if none is there. Gaussians of voxels
+  /// that are not selected are as of the last updateAll().
+  const VoxelGaussian* nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& to_sensor,
+                               bool all, float& distance) const;
 
   /// The slot of a voxel's cell, which is made if there is none.
   uint32_t slotFor(const VoxelIndex& v);
-  /// Adds a centroid of scan `scan` (counted from 1); true if it is the scan's first there.
-  bool add(uint32_t slot, const Eigen::Vector3d& centroid, uint32_t scan);
+  /// Adds a centroid of scan `scan` (counted from 1), seen along the unit vector `to_sensor`; true
+  /// if it is the scan's first there.
+  bool add(uint32_t slot, const Eigen::Vector3d& centroid, const Eigen::Vector3f& to_sensor,
+           uint32_t scan);
   /// Computes the Gaussians of the selected cells that have changed.
   void updateSelected();
   /// Those of all cells that have changed.
@@ -70,7 +76,11 @@ class GaussianLevel {
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
+  const VoxelGaussian& gaussian(uint32_t slot) const { return gaussians_[slot]; }
+  /// Voxels.
   size_t selectedCount() const { return selected_count_; }
+  /// Gaussians of the selected voxels.
+  size_t selectedGaussians() const;
   size_t blocksWithSelection() const;
   size_t bytes() const;
 
@@ -78,20 +88,17 @@ class GaussianLevel {
   using Layout = BlockLayout<8>;
   using Bits = std::array<uint8_t, Layout::kRows>;
 
-  const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v, bool all) const {
-    const auto row = static_cast<size_t>(Layout::row(v));
-    const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-    if (((bits[row] >> Layout::column(v)) & 1) == 0) return nullptr;
-    return &gaussians_[grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))]];
-  }
+  const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v,
+                                   const Eigen::Vector3f& to_sensor, bool all) const;
+  uint32_t newCell(const VoxelIndex& v);
+  uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
+  bool isSelected(uint32_t slot) const;
+  void update(uint32_t slot);
 
   double voxel_size_;
   SlotGrid<8> grid_;
   std::deque<Bits> selected_;  // one a block of grid_
   size_t selected_count_ = 0;
-  bool isSelected(uint32_t slot) const;
-  void update(uint32_t slot);
-
   Pool<Cell> cells_;
   Pool<VoxelIndex> voxels_;
   Pool<VoxelGaussian> gaussians_;
@@ -111,10 +118,10 @@ class OccupiedVoxelMap {
                    const EdgeConfig& edges, int threads);
 
   /// add(), then label() when it is due.
-  void insert(const std::vector<Eigen::Vector3d>& centroids);
-  /// Adds one scan's centroids, in the map frame [m]; those out of the grid's range are ignored
-  /// and counted.
-  void add(const std::vector<Eigen::Vector3d>& centroids);
+  void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
+  /// Adds one scan's centroids, seen from `sensor`, in the map frame [m]; those out of the grid's
+  /// range are ignored and counted.
+  void add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   /// Every `label_every` scans; never where only the map's output needs labels.
   bool labelDue() const;
   /// Labels what has changed since the last labelling. The labels are those that labelling the
@@ -155,9 +162,10 @@ class OccupiedVoxelMap {
     uint32_t hits = 0;
   };
 
-  void addInside(const std::vector<Eigen::Vector3d>& centroids);
+  void addInside(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   void addHits(const std::vector<Eigen::Vector3d>& centroids);
-  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
+  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids,
+                  const Eigen::Vector3d& sensor);
   void markOccupied(const VoxelIndex& v);
   bool isAnchor(const VoxelIndex& v) const;
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);

@@ -17,9 +17,9 @@ struct PipelineResult {
   size_t points = 0;
   size_t scan_voxels = 0;
   DroppedPoints dropped;
-  EdgeCount edges;            ///< of the scan
-  double voxelize = 0.0;      ///< [s]
-  double extract = 0.0;       ///< [s]
+  EdgeCount edges;        ///< of the scan
+  double voxelize = 0.0;  ///< [s]
+  double extract = 0.0;   ///< [s]
 };
 
 /// Voxelizer, edge extractor and mapper in a row: the same three calls that the nodelets make.

@@ -79,11 +79,11 @@ inline uint64_t voxelHash(const VoxelIndex& v) { return mixBits(packedIndex(v));
 
 /// One occupied voxel of a scan, in the frame of the cloud.
 struct ScanVoxel {
-  VoxelIndex index;                                     ///< at VoxelScan::voxel_size
-  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();   ///< mean of its points [m]
-  float time_offset = 0.0F;                             ///< mean of its points' times - stamp [s]
+  VoxelIndex index;                                    ///< at VoxelScan::voxel_size
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< mean of its points [m]
+  float time_offset = 0.0F;                            ///< mean of its points' times - stamp [s]
   uint32_t point_count = 0;
-  bool edge = false;                                    ///< set by EdgeExtractor
+  bool edge = false;  ///< set by EdgeExtractor
 };
 
 /// Why points of a cloud were not used.
@@ -98,9 +98,9 @@ struct DroppedPoints {
 
 /// One cloud as occupied voxels, block by block.
 struct VoxelScan {
-  double stamp = 0.0;  ///< of the cloud [s]
-  std::string frame;   ///< of the cloud
-  uint64_t number = 0; ///< counts the clouds read
+  double stamp = 0.0;       ///< of the cloud [s]
+  std::string frame;        ///< of the cloud
+  uint64_t number = 0;      ///< counts the clouds read
   double voxel_size = 0.0;  ///< [m]
   std::vector<ScanVoxel> voxels;
   uint64_t points_read = 0;

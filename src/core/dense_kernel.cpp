@@ -15,11 +15,14 @@ class DenseBlock {
  public:
   static constexpr int kSide = kEdge + 2 * kDenseHalo;
   static constexpr int kCells = kSide * kSide * kSide;
-  static constexpr int kStride[3] = {1, kSide, kSide * kSide};
+  static constexpr int kStride[3] = {1, kSide, kSide* kSide};
   using Field = std::vector<Real>;
 
-  explicit DenseBlock(const DenseTaps& taps)
-      : slope_(cast(taps.slope)), smooth_(cast(taps.smooth)), weight_(cast(taps.weight)) {}
+  void setTaps(const DenseTaps& taps) {
+    slope_ = cast(taps.slope);
+    smooth_ = cast(taps.smooth);
+    weight_ = cast(taps.weight);
+  }
 
   /// Six fields xx, yy, zz, xy, yz, zx, valid kDenseHalo cells from the border.
   const std::array<Field, 6>& tensor(const uint64_t* occupied) {
@@ -78,7 +81,7 @@ class DenseBlock {
     }
   }
 
-  Taps slope_, smooth_, weight_;
+  Taps slope_{}, smooth_{}, weight_{};
   Field occupancy_ = Field(kCells), a_ = Field(kCells), b_ = Field(kCells),
         product_ = Field(kCells);
   std::array<Field, 3> gradient_;
@@ -116,7 +119,8 @@ template <int kEdge, typename Real>
 void labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                      const DenseTaps& taps, const DenseThresholds& thresholds) {
   using Dense = DenseBlock<kEdge, Real>;
-  Dense dense(taps);
+  static thread_local Dense dense;  // 700 KB and more, kept from block to block
+  dense.setTaps(taps);
   const auto& tensor = dense.tensor(occupied);
   for (int row = 0; row < kEdge * kEdge; ++row) {
     const int y = row % kEdge + kDenseHalo;
@@ -133,8 +137,8 @@ void labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t
   }
 }
 
-#define EDGEVOX_DENSE(edge, real)                                                               \
-  template void labelBlockDense<edge, real>(const uint64_t*, const uint32_t*, uint32_t*,        \
+#define EDGEVOX_DENSE(edge, real)                                                        \
+  template void labelBlockDense<edge, real>(const uint64_t*, const uint32_t*, uint32_t*, \
                                             const DenseTaps&, const DenseThresholds&);
 EDGEVOX_DENSE(8, double)
 EDGEVOX_DENSE(16, double)

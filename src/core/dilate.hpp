@@ -68,8 +68,8 @@ class Dilation {
         const uint64_t row = rows_[at(row_y, row_z)];
         const uint64_t part = x < 0 ? row << (kEdge - kPad) : row >> (kPad + x * kEdge);
         const auto r = static_cast<size_t>((row_z & (kEdge - 1)) * kEdge + (row_y & (kEdge - 1)));
-        const auto bits = static_cast<typename Grid::Row>(
-            static_cast<typename Grid::Row>(part) & (*allowed)[r]);
+        const auto bits =
+            static_cast<typename Grid::Row>(static_cast<typename Grid::Row>(part) & (*allowed)[r]);
         if (bits == 0) continue;
         if (target == nullptr) target = &out_.block(out_.insertBlock(block));
         (*target)[r] = static_cast<typename Grid::Row>((*target)[r] | bits);

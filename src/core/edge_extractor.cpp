@@ -30,8 +30,9 @@ bool hasAvx2() {
 kernel::LabelBlock chooseKernel(InstructionSet instruction_set, int block_edge) {
   const kernel::LabelBlock avx2 = hasAvx2() ? kernel::avx2LabelBlock(block_edge) : nullptr;
   if (instruction_set == InstructionSet::kAvx2 && avx2 == nullptr) {
-    throw ConfigError("edges/instruction_set is 'avx2', which this processor or build lacks; "
-                      "use 'auto'");
+    throw ConfigError(
+        "edges/instruction_set is 'avx2', which this processor or build lacks; "
+        "use 'auto'");
   }
   const bool portable = instruction_set == InstructionSet::kPortable || avx2 == nullptr;
   return portable ? kernel::portableLabelBlock(block_edge) : avx2;
@@ -76,8 +77,8 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
     }
     auto& edge_block = edges.block(edge_slots[slot]);
     for (size_t row = 0; row < kRows; ++row) {
-      edge_block[row] = static_cast<typename Grid::Row>(
-          (edge_block[row] & ~target_block[row]) | (found[row] & target_block[row]));
+      edge_block[row] = static_cast<typename Grid::Row>((edge_block[row] & ~target_block[row]) |
+                                                        (found[row] & target_block[row]));
     }
   });
 }

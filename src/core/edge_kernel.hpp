@@ -8,15 +8,15 @@
 namespace edgevox {
 namespace kernel {
 
-constexpr int kHalo = 3;                 // gradient 1 + tensor 2; support 3
-constexpr int64_t kPlane = 1 << 15;      // largest eigenvalue of an ideal plane, tensor >> 4
-constexpr int kRatioBits = 16;           // fixed point of `rho`
-constexpr int kSupportBits = 10;         // fixed point of `support`
+constexpr int kHalo = 3;             // gradient 1 + tensor 2; support 3
+constexpr int64_t kPlane = 1 << 15;  // largest eigenvalue of an ideal plane, tensor >> 4
+constexpr int kRatioBits = 16;       // fixed point of `rho`
+constexpr int kSupportBits = 10;     // fixed point of `support`
 
 struct Thresholds {
   int64_t magnitude;  ///< smallest middle eigenvalue of an edge, plane = kPlane
   int64_t rho;        ///< smallest middle eigenvalue / trace, << kRatioBits
-  int64_t support;    ///< smallest eigenvalue of the neighbours' covariance, << kSupportBits; 0: off
+  int64_t support;  ///< smallest eigenvalue of the neighbours' covariance, << kSupportBits; 0: off
   bool exclude_corners;  ///< Ryde et al. 2013: the smallest eigenvalue must not pass
 };
 

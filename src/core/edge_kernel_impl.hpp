@@ -18,20 +18,20 @@ typedef int8_t Int8x16 __attribute__((vector_size(16)));
 typedef int16_t Int16x8 __attribute__((vector_size(16)));
 typedef int32_t Int32x8 __attribute__((vector_size(32)));
 
-/// What two voxels in a row add to the gradients (gx, gy, gz, 0) of the four cells around them.
+/// What six voxels of a row add to the gradients (gx, gy, gz, 0) of the four cells amid them.
 struct GradientTable {
-  int8_t add[3][3][4][16];  // voxel row offset z + 1, y + 1, bits of the two voxels
+  alignas(16) int8_t add[3][3][64][16];  // voxel row offset z + 1, y + 1, bits of the voxels
 
   constexpr GradientTable() : add() {
     constexpr int smooth[3] = {1, 2, 1};
     constexpr int slope[3] = {-1, 0, 1};
     for (int z = 0; z < 3; ++z) {
       for (int y = 0; y < 3; ++y) {
-        for (int bits = 0; bits < 4; ++bits) {
-          for (int voxel = 0; voxel < 2; ++voxel) {
-            if (((bits >> voxel) & 1) == 0) continue;
-            for (int x = 0; x < 3; ++x) {  // the voxel lies x - 1 from the cell
-              int8_t* cell = add[z][y][bits] + 4 * (voxel + 2 - x);
+        for (int bits = 0; bits < 64; ++bits) {
+          for (int c = 0; c < 4; ++c) {
+            int8_t* cell = add[z][y][bits] + 4 * c;
+            for (int x = 0; x < 3; ++x) {
+              if (((bits >> (c + x)) & 1) == 0) continue;
               cell[0] = static_cast<int8_t>(cell[0] + slope[x] * smooth[y] * smooth[z]);
               cell[1] = static_cast<int8_t>(cell[1] + smooth[x] * slope[y] * smooth[z]);
               cell[2] = static_cast<int8_t>(cell[2] + smooth[x] * smooth[y] * slope[z]);
@@ -45,18 +45,21 @@ struct GradientTable {
 constexpr GradientTable kGradients;
 
 /// Number, sum and sum of squares of the positions -3..3 that are set in 7 bits.
+struct RowMoments {
+  int16_t count = 0;
+  int16_t sum = 0;
+  int16_t squares = 0;
+};
 struct RowMomentTable {
-  int8_t count[128];
-  int8_t sum[128];
-  int8_t squares[128];
+  RowMoments of[128];
 
-  constexpr RowMomentTable() : count(), sum(), squares() {
+  constexpr RowMomentTable() : of() {
     for (int bits = 0; bits < 128; ++bits) {
       for (int i = 0; i < 7; ++i) {
         if (((bits >> i) & 1) == 0) continue;
-        count[bits] = static_cast<int8_t>(count[bits] + 1);
-        sum[bits] = static_cast<int8_t>(sum[bits] + (i - 3));
-        squares[bits] = static_cast<int8_t>(squares[bits] + (i - 3) * (i - 3));
+        ++of[bits].count;
+        of[bits].sum = static_cast<int16_t>(of[bits].sum + (i - 3));
+        of[bits].squares = static_cast<int16_t>(of[bits].squares + (i - 3) * (i - 3));
       }
     }
   }
@@ -107,8 +110,7 @@ inline CharacteristicPolynomial characteristic(const Tensor& m) {
   const int64_t minor_y = m.xx * m.zz - m.zx * m.zx;
   const int64_t minor_z = m.xx * m.yy - m.xy * m.xy;
   return {m.xx + m.yy + m.zz, minor_x + minor_y + minor_z,
-          m.xx * minor_x - m.xy * (m.xy * m.zz - m.yz * m.zx) +
-              m.zx * (m.xy * m.yz - m.yy * m.zx)};
+          m.xx * minor_x - m.xy * (m.xy * m.zz - m.yz * m.zx) + m.zx * (m.xy * m.yz - m.yy * m.zx)};
 }
 
 /// Counts positive eigenvalues by Descartes' rule, exact because all roots are real.
@@ -116,8 +118,8 @@ inline bool isEdge(const Tensor& tensor, const Thresholds& thresholds) {
   const int64_t trace = tensor.xx + tensor.yy + tensor.zz;
   const int64_t relative = (thresholds.rho * trace) >> kRatioBits;
   const int64_t t = relative > thresholds.magnitude ? relative : thresholds.magnitude;
-  const auto p = characteristic({tensor.xx - t, tensor.yy - t, tensor.zz - t, tensor.xy,
-                                 tensor.yz, tensor.zx});
+  const auto p = characteristic(
+      {tensor.xx - t, tensor.yy - t, tensor.zz - t, tensor.xy, tensor.yz, tensor.zx});
   const bool exactly_two = (p.c0 < 0) & !((p.c2 <= 0) & (p.c1 >= 0));
   const bool others_positive = (p.c0 >= 0) & (p.c2 > 0) & (p.c1 > 0);
   return exactly_two | (others_positive & !thresholds.exclude_corners);
@@ -127,8 +129,6 @@ template <int kEdge>
 class BlockLabeller {
  public:
   BlockLabeller(const uint64_t* occupied, const uint32_t* targets) : occupied_(occupied) {
-    std::memset(gradient_, 0, sizeof(gradient_));
-    std::memset(product_, 0, sizeof(product_));
     std::memset(zero_, 0, sizeof(zero_));
     std::memset(target_, 0, sizeof(target_));
     for (int z = 0; z < kEdge; ++z) {
@@ -152,11 +152,10 @@ class BlockLabeller {
   }
 
  private:
-  static constexpr int kReach = 2;                    // of the tensor's weights
-  static constexpr int kCells = kEdge + 2 * kReach;   // cells with a gradient, an axis
-  static constexpr int kRows = kEdge + 2 * kHalo;     // rows of occupancy, an axis
+  static constexpr int kReach = 2;                   // of the tensor's weights
+  static constexpr int kCells = kEdge + 2 * kReach;  // cells with a gradient, an axis
+  static constexpr int kRows = kEdge + 2 * kHalo;    // rows of occupancy, an axis
   static constexpr int kSlabs = 2 * kReach + 1;
-  static constexpr uint64_t kCellMask = (uint64_t{1} << kCells) - 1;
 
   using SumRow = int16_t[kEdge][8];
 
@@ -196,51 +195,43 @@ class BlockLabeller {
       const int16_t(*&row)[8] = sum_row_[slab][y + kReach];
       row = zero_;
       if (needed[y + kReach] == 0) continue;
-      const uint64_t cells = accumulateGradients(y, z);
-      if (cells == 0) continue;
+      if (!multiplyRow(y, z)) continue;
       SumRow& sums = sum_[slab][y + kReach];
-      sumRow(cells, needed[y + kReach], sums);
+      sumAlongX(needed[y + kReach], sums);
       row = sums;
     }
   }
 
-  /// Gradients of the row's cells; the cells that may have one, bit x + kReach.
-  uint64_t accumulateGradients(int y, int z) {
-    uint64_t bits = 0;
+  /// Products of the gradients of the row's cells; false if all are 0.
+  bool multiplyRow(int y, int z) {
+    uint64_t row[9];
+    const int8_t(*table[9])[16];
+    int count = 0;
+    uint64_t any = 0;
     for (int dz = 0; dz < 3; ++dz) {
-      const uint64_t* row = occupiedRow(y - 1, z + dz - 1);
+      const uint64_t* from = occupiedRow(y - 1, z + dz - 1);
       uint64_t rows = (occupied_rows_[z + dz - 1 + kHalo] >> (y - 1 + kHalo)) & 7;
       for (; rows != 0; rows &= rows - 1) {
         const int dy = __builtin_ctzll(rows);
-        bits |= row[dy];
-        addGradients(row[dy], kGradients.add[dz][dy]);
+        row[count] = from[dy];
+        table[count++] = kGradients.add[dz][dy];
+        any |= from[dy];
       }
     }
-    return (bits | bits >> 1 | bits >> 2) & kCellMask;
-  }
-
-  void addGradients(uint64_t bits, const int8_t (&table)[4][16]) {
-    while (bits != 0) {
-      const int first = __builtin_ctzll(bits);
-      int8_t* cells = gradient_ + 4 * first;
-      store(cells, load<Int8x16>(cells) + load<Int8x16>(table[(bits >> first) & 3]));
-      bits &= ~(uint64_t{3} << first);
+    if (any == 0) return false;
+    for (int c = 0; c < kCells; c += 4) {
+      if (((any >> c) & 63) == 0) {
+        std::memset(product_[c], 0, 4 * sizeof(product_[0]));
+        continue;
+      }
+      Int8x16 sum = {};
+      for (int i = 0; i < count; ++i) sum += load<Int8x16>(table[i][(row[i] >> c) & 63]);
+      alignas(16) int8_t gradients[16];
+      store(gradients, sum);
+      multiplyGradients(gradients, product_ + c);
+      multiplyGradients(gradients + 8, product_ + c + 2);
     }
-  }
-
-  /// Sums along x of the products of the gradients, which are then zero again.
-  void sumRow(uint64_t cells, uint32_t needed, SumRow& sums) {
-    constexpr uint64_t kEvenCells = 0x5555555555555555ULL;
-    const uint64_t pairs = (cells | cells >> 1) & kEvenCells;
-    for (uint64_t rest = pairs; rest != 0; rest &= rest - 1) {
-      const int c = __builtin_ctzll(rest);
-      multiplyGradients(gradient_ + 4 * (c + kReach), product_ + c);
-    }
-    sumAlongX(needed, sums);
-    std::memset(gradient_, 0, sizeof(gradient_));
-    for (uint64_t rest = pairs; rest != 0; rest &= rest - 1) {
-      std::memset(product_[__builtin_ctzll(rest)], 0, 2 * sizeof(product_[0]));
-    }
+    return true;
   }
 
   /// Weights 1 4 6 4 1; at most 16 * 256.
@@ -249,16 +240,15 @@ class BlockLabeller {
       const int x = __builtin_ctz(needed);
       const auto product = [&](int c) { return load<Int16x8>(product_[x + c]); };
       const Int16x8 middle = product(2);
-      store(sums[x], (product(0) + product(4)) + ((product(1) + middle + product(3)) << 2) +
-                         (middle << 1));
+      store(sums[x],
+            (product(0) + product(4)) + ((product(1) + middle + product(3)) << 2) + (middle << 1));
     }
   }
 
   void labelSlab(int z, uint32_t* edges, const Thresholds& thresholds) const {
     for (int y = 0; y < kEdge; ++y) {
       uint32_t found = 0;
-      for (uint32_t bits = target_[z + 2 * kReach][y + 2 * kReach]; bits != 0;
-           bits &= bits - 1) {
+      for (uint32_t bits = target_[z + 2 * kReach][y + 2 * kReach]; bits != 0; bits &= bits - 1) {
         const int x = __builtin_ctz(bits);
         const bool edge = isEdge(tensorAt(x, y, z), thresholds) &&
                           (thresholds.support == 0 || isSupported(x, y, z, thresholds.support));
@@ -278,8 +268,8 @@ class BlockLabeller {
     const Int16x8 four_y = row(2, 1) + row(2, -1) + row(-2, 1) + row(-2, -1);
     const Int16x8 four_z = row(1, 2) + row(1, -2) + row(-1, 2) + row(-1, -2);
     const Int32x8 one = __builtin_convertvector(square(2), Int32x8);
-    const Int32x8 four = __builtin_convertvector(four_y, Int32x8) +
-                         __builtin_convertvector(four_z, Int32x8);
+    const Int32x8 four =
+        __builtin_convertvector(four_y, Int32x8) + __builtin_convertvector(four_z, Int32x8);
     const Int32x8 six = __builtin_convertvector(cross(2), Int32x8);
     const Int32x8 sixteen = __builtin_convertvector(square(1), Int32x8);
     const Int32x8 twenty_four = __builtin_convertvector(cross(1), Int32x8);
@@ -297,15 +287,13 @@ class BlockLabeller {
       const uint64_t* rows = occupiedRow(y, z + dz);
       int plane_n = 0, plane_x = 0, plane_y = 0, plane_xy = 0, plane_xx = 0, plane_yy = 0;
       for (int dy = -3; dy <= 3; ++dy) {
-        const auto bits = static_cast<int>((rows[dy] >> x) & 127);
-        const int count = kRowMoments.count[bits];
-        const int sum = kRowMoments.sum[bits];
-        plane_n += count;
-        plane_x += sum;
-        plane_xx += kRowMoments.squares[bits];
-        plane_y += dy * count;
-        plane_yy += dy * dy * count;
-        plane_xy += dy * sum;
+        const RowMoments row = kRowMoments.of[(rows[dy] >> x) & 127];
+        plane_n += row.count;
+        plane_x += row.sum;
+        plane_xx += row.squares;
+        plane_y += dy * row.count;
+        plane_yy += dy * dy * row.count;
+        plane_xy += dy * row.sum;
       }
       n += plane_n;
       sx += plane_x;
@@ -329,11 +317,10 @@ class BlockLabeller {
   uint64_t occupied_rows_[kRows];  // of each plane, those with a voxel
   uint64_t target_planes_ = 0;     // bit z + 2 kReach
   uint32_t target_[kEdge + 4 * kReach][kEdge + 4 * kReach];
-  alignas(16) int8_t gradient_[4 * (kEdge + 12)];  // cells from x = -4 on
-  alignas(16) int16_t product_[kCells][8];         // cells from x = -2 on
+  alignas(16) int16_t product_[kCells][8];  // cells from x = -2 on
   alignas(16) SumRow sum_[kSlabs][kCells];
   alignas(16) SumRow zero_;
-  const int16_t (*sum_row_[kSlabs][kCells])[8];    // into sum_, or zero_
+  const int16_t (*sum_row_[kSlabs][kCells])[8];  // into sum_, or zero_
 };
 
 template <int kEdge>

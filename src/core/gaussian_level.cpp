@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/LU>
@@ -9,33 +10,74 @@
 namespace edgevox {
 namespace {
 
-constexpr double kSensorSigma = 0.02;    // [m]
-constexpr double kVoxelSigma = 0.3;      // [voxel]; spread assumed where few points tell
-constexpr double kPriorWeight = 2.0;     // [centroids]
+constexpr double kSensorSigma = 0.02;  // [m]
+constexpr double kVoxelSigma = 0.3;    // [voxel]; spread assumed where few points tell
+constexpr double kPriorWeight = 2.0;   // [centroids]
+constexpr double kAlongShare = 0.25;   // of the information along a surface that is used
+constexpr double kFlat = 0.1;          // of the variance at most across a flat voxel
+constexpr double kBehind = 0.02;       // cosine to the normal of a surface seen from behind
+constexpr double kOpposite = 0.3;      // cosine between views of two sides of anything else
 
-/// Largest root of the characteristic polynomial of a positive definite matrix, by Newton steps
-/// from above: monotone, and the same on every machine.
-double largestEigenvalue(const Eigen::Matrix3d& m) {
-  const double c2 = m.trace();
-  const double c1 = m(0, 0) * m(1, 1) + m(1, 1) * m(2, 2) + m(2, 2) * m(0, 0) -
-                    m(0, 1) * m(0, 1) - m(1, 2) * m(1, 2) - m(2, 0) * m(2, 0);
-  const double c0 = m.determinant();
-  double l = c2;
-  for (int i = 0; i < 30; ++i) {
-    const double value = ((l - c2) * l + c1) * l - c0;
-    const double slope = (3 * l - 2 * c2) * l + c1;
-    if (!(slope > 0)) break;
-    const double step = value / slope;
-    l -= step;
-    if (!(step > 1e-9 * l)) break;
+/// Smallest and largest root of the characteristic polynomial of a positive definite matrix, by
+/// Newton steps from outside: monotone, and the same on every machine.
+struct ExtremeEigenvalues {
+  double least;
+  double greatest;
+
+  explicit ExtremeEigenvalues(const Eigen::Matrix3d& m) {
+    const double c2 = m.trace();
+    const double c1 = m(0, 0) * m(1, 1) + m(1, 1) * m(2, 2) + m(2, 2) * m(0, 0) -
+                      m(0, 1) * m(0, 1) - m(1, 2) * m(1, 2) - m(2, 0) * m(2, 0);
+    const double c0 = m.determinant();
+    least = rootFrom(0.0, c2, c1, c0);
+    greatest = rootFrom(c2, c2, c1, c0);
   }
-  return l;
-}
+
+ private:
+  static double rootFrom(double l, double c2, double c1, double c0) {
+    for (int i = 0; i < 40; ++i) {
+      const double value = ((l - c2) * l + c1) * l - c0;
+      const double slope = (3 * l - 2 * c2) * l + c1;
+      if (!(slope > 0)) break;
+      const double step = value / slope;
+      l -= step;
+      if (!(std::abs(step) > 1e-9 * l)) break;
+    }
+    return l;
+  }
+};
 
 Eigen::Matrix3d symmetric(const std::array<float, 6>& m) {
   Eigen::Matrix3d out;
   out << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
   return out;
+}
+
+/// Across the surface all of the information, along it only a share: where a voxel is cut off by
+/// the rim of the view its narrow extent would else fake a position.
+Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, Eigen::Matrix3d& across) {
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  const ExtremeEigenvalues e(covariance);
+  const double middle = covariance.trace() - e.least - e.greatest;
+  const double spread = e.greatest - e.least;
+  across.setZero();
+  if (!(spread > 1e-6 * e.greatest)) return across;
+  across = (covariance - middle * identity) * (covariance - e.greatest * identity) /
+           (e.least * middle * spread);
+  return kAlongShare * (covariance.inverse() - identity / e.greatest) + (1 - kAlongShare) * across;
+}
+
+/// See VoxelGaussian::side: the normal turned to the viewer where the voxel is flat, the mean
+/// viewing direction elsewhere.
+Eigen::Vector3f sideOf(const Eigen::Matrix3d& covariance, const Eigen::Matrix3d& across,
+                       const Eigen::Vector3d& view) {
+  Eigen::Index axis = 0;
+  across.diagonal().maxCoeff(&axis);
+  const Eigen::Vector3d normal = across.col(axis).normalized();
+  const double thickness = normal.dot(covariance * normal);
+  const bool flat = across.trace() > 0 && thickness < kFlat * covariance.trace();
+  if (!flat) return (view.normalized() / kOpposite).cast<float>();
+  return (normal * (normal.dot(view) < 0 ? -1.0 : 1.0) / kBehind).cast<float>();
 }
 
 VoxelGaussian gaussianOf(const GaussianLevel::Cell& cell, const VoxelIndex& v, double size) {
@@ -46,12 +88,13 @@ VoxelGaussian gaussianOf(const GaussianLevel::Cell& cell, const VoxelIndex& v, d
   const Eigen::Matrix3d covariance =
       (scatter + prior * Eigen::Matrix3d::Identity()) / (n + kPriorWeight) +
       kSensorSigma * kSensorSigma * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d information =
-      covariance.inverse() - Eigen::Matrix3d::Identity() / largestEigenvalue(covariance);
+  Eigen::Matrix3d across;
+  const Eigen::Matrix3f w = informationOf(covariance, across).cast<float>();
   VoxelGaussian gaussian;
   gaussian.mean = (voxelCentre(v, size) + sum / n).cast<float>();
-  const auto w = information.cast<float>();
   gaussian.information = {w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(1, 2), w(2, 0)};
+  gaussian.side =
+      sideOf(covariance, across, Eigen::Vector3d(cell.view[0], cell.view[1], cell.view[2]));
   return gaussian;
 }
 
@@ -64,9 +107,10 @@ float squaredDistance(const VoxelGaussian& g, const Eigen::Vector3f& point) {
 
 }  // namespace
 
-const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point, bool all,
+const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point,
+                                            const Eigen::Vector3f& to_sensor, bool all,
                                             float& distance) const {
-  static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+  static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const VoxelIndex centre = voxelAt(point, 1.0 / voxel_size_);
   const VoxelIndex centre_block = Layout::block(centre);
@@ -78,7 +122,7 @@ const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point, bool a
     const VoxelIndex v_block = Layout::block(v);
     const int32_t slot = v_block == centre_block ? block : grid_.findBlock(v_block);
     if (slot == BlockTable::kNone) continue;
-    const VoxelGaussian* candidate = findInBlock(static_cast<size_t>(slot), v, all);
+    const VoxelGaussian* candidate = findInBlock(static_cast<size_t>(slot), v, to_sensor, all);
     if (candidate == nullptr) continue;
     const float d = squaredDistance(*candidate, point);
     if (d < distance) {
@@ -89,34 +133,63 @@ const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point, bool a
   return best;
 }
 
+const VoxelGaussian* GaussianLevel::findInBlock(size_t block, const VoxelIndex& v,
+                                                const Eigen::Vector3f& to_sensor, bool all) const {
+  const auto row = static_cast<size_t>(Layout::row(v));
+  const auto& bits = all ? grid_.block(block).occupied : selected_[block];
+  if (((bits[row] >> Layout::column(v)) & 1) == 0) return nullptr;
+  const auto& gaussian = gaussians_[grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))]];
+  if (!gaussian.facesAway(to_sensor)) return &gaussian;
+  return gaussian.twin == VoxelGaussian::kNoTwin ? nullptr : &gaussians_[gaussian.twin];
+}
+
 uint32_t GaussianLevel::slotFor(const VoxelIndex& v) {
   const auto next = static_cast<uint32_t>(cells_.size());
   const uint32_t slot = grid_.insert(v, next);
   if (slot == next) {
-    cells_.grow();
-    voxels_.grow() = v;
-    gaussians_.grow();
+    newCell(v);
     while (selected_.size() < grid_.blockCount()) selected_.emplace_back(Bits{});
   }
   return slot;
 }
 
-bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid, uint32_t scan) {
-  Cell& cell = cells_[slot];
-  const Eigen::Vector3f d =
-      (centroid - voxelCentre(voxels_[slot], voxel_size_)).cast<float>();
+uint32_t GaussianLevel::newCell(const VoxelIndex& v) {
+  cells_.grow();
+  voxels_.grow() = v;
+  gaussians_.grow();
+  return static_cast<uint32_t>(cells_.size() - 1);
+}
+
+/// The cell of the surface in the voxel that `to_sensor` sees.
+uint32_t GaussianLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor) {
+  if (!gaussians_[slot].facesAway(to_sensor)) return slot;
+  if (gaussians_[slot].twin == VoxelGaussian::kNoTwin) {
+    const uint32_t twin = newCell(voxels_[slot]);
+    cells_[twin].is_twin = true;
+    gaussians_[slot].twin = twin;
+  }
+  return gaussians_[slot].twin;
+}
+
+bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
+                        const Eigen::Vector3f& to_sensor, uint32_t scan) {
+  const uint32_t side = sideSlot(slot, to_sensor);
+  Cell& seen = cells_[side];
+  const Eigen::Vector3f d = (centroid - voxelCentre(voxels_[slot], voxel_size_)).cast<float>();
   for (size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<Eigen::Index>(i);
     const auto b = static_cast<Eigen::Index>((i + 1) % 3);
-    cell.sum[i] += d[a];
-    cell.outer[i] += d[a] * d[a];
-    cell.outer[i + 3] += d[a] * d[b];
+    seen.sum[i] += d[a];
+    seen.outer[i] += d[a] * d[a];
+    seen.outer[i + 3] += d[a] * d[b];
+    seen.view[i] += to_sensor[a];
   }
-  ++cell.count;
-  if (!cell.stale) {
-    cell.stale = true;
-    stale_.push_back(slot);
+  ++seen.count;
+  if (!seen.stale) {
+    seen.stale = true;
+    stale_.push_back(side);
   }
+  Cell& cell = cells_[slot];
   if (cell.last_scan == scan) return false;
   cell.last_scan = scan;
   if (cell.hits < std::numeric_limits<uint16_t>::max()) ++cell.hits;
@@ -124,7 +197,9 @@ bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid, uint32_t
 }
 
 void GaussianLevel::update(uint32_t slot) {
+  const uint32_t twin = gaussians_[slot].twin;
   gaussians_[slot] = gaussianOf(cells_[slot], voxels_[slot], voxel_size_);
+  gaussians_[slot].twin = twin;
   cells_[slot].stale = false;
 }
 
@@ -160,6 +235,14 @@ void GaussianLevel::select(uint32_t slot, bool selected) {
   row = static_cast<uint8_t>(row ^ (1U << Layout::column(v)));
   selected ? ++selected_count_ : --selected_count_;
   if (selected && cells_[slot].stale) update(slot);
+  const uint32_t twin = gaussians_[slot].twin;
+  if (selected && twin != VoxelGaussian::kNoTwin && cells_[twin].stale) update(twin);
+}
+
+size_t GaussianLevel::selectedGaussians() const {
+  size_t count = 0;
+  for (uint32_t slot = 0; slot < size(); ++slot) count += isSelected(slot) ? 1 : 0;
+  return count;
 }
 
 size_t GaussianLevel::blocksWithSelection() const {

@@ -12,8 +12,9 @@ namespace {
 
 constexpr size_t kFewestVoxels = 50;
 constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
+constexpr double kTrusted = 0.95;           // of the running median of the hit ratios
 constexpr double kLongestReach = 4.0;
-static double kTwistGain = getenv("TG")?atof(getenv("TG")):0.5;
+constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity to the sweep
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
                     const Deskew& deskew) {
@@ -122,8 +123,7 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
   twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
   const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
-                                       now.T_map_sensor, 1,
-                                       result.status == ScanStatus::kFallback);
+                                       now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
   now.T_map_sensor = refined.T_map_sensor;
 }
 
@@ -161,6 +161,7 @@ MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, ScanResu
   MatchRequest request;
   request.guess = guess;
   request.required_hit_ratio = requiredHitRatio();
+  request.trusted_hit_ratio = trustedHitRatio();
   request.reach = std::min(1.0 + lost_in_a_row_, kLongestReach);
   request.seed = result.number;
   const double range = typicalRange(sample);
@@ -201,6 +202,10 @@ double Mapper::requiredHitRatio() const {
   return hit_ratios_.empty() ? c.min_hit_ratio : c.relative_hit_ratio * hit_ratios_.median();
 }
 
+double Mapper::trustedHitRatio() const {
+  return hit_ratios_.empty() ? 1.0 : kTrusted * hit_ratios_.median();
+}
+
 void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& result) {
   StageTimer timer(clock_);
   const Deskew deskew(sweep, twist_in_sweep_);
@@ -209,7 +214,7 @@ void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& r
   std::transform(
       scan.voxels.begin(), scan.voxels.end(), centroids.begin(),
       [&](const ScanVoxel& voxel) -> Eigen::Vector3d { return T_map_sensor * deskew(voxel); });
-  map_.add(centroids);
+  map_.add(centroids, T_map_sensor.translation());
   result.times.insert = timer.lap();
   if (map_.labelDue()) map_.label();
   result.times.label = timer.lap();

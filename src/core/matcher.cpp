@@ -16,11 +16,16 @@ namespace {
 
 constexpr double kRestartDistance = 1.0;               // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
+constexpr double kFarthest = 2.0;                      // a match from its guess [m]
+constexpr double kWidest = 60.0 * M_PI / 180.0;        // the same [rad]
+constexpr double kTrustedStep = 1.0;                   // of a refinement alone [voxel of level 1]
+constexpr double kLeastKnown = 0.25;                   // of a sample
+constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
-constexpr int kRefineSteps[] = {0, 8, 3};               // at most, of a level
-constexpr double kConvergedDistance = 5e-4;            // [m]
-constexpr double kConvergedAngle = 5e-5;               // [rad]
-constexpr float kRobustScale = 9.0F;                   // squared Mahalanobis distance
+constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
+constexpr double kConvergedDistance = 5e-4;  // [m]
+constexpr double kConvergedAngle = 5e-5;     // [rad]
+constexpr float kRobustScale = 9.0F;         // squared Mahalanobis distance
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -110,6 +115,7 @@ struct NormalEquations {
   Matrix6 h = Matrix6::Zero();
   Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
   int matches = 0;
+  double weight = 0.0;
 
   /// Residual e of a point `lever` from the sensor; J = [I, -[lever]x].
   void add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e, const Eigen::Vector3d& lever) {
@@ -128,6 +134,12 @@ struct NormalEquations {
   void finish() { h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose(); }
 };
 
+/// How far a change of pose moves the sensor, or a point at `range` around it.
+double largestStep(const Pose& from, const Pose& to, double range) {
+  const Pose change = from.inverse() * to;
+  return std::max(change.translation().norm(), rotationAngle(change) * range);
+}
+
 NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, size_t count,
                           const Pose& pose, bool all_voxels) {
   NormalEquations equations;
@@ -135,12 +147,14 @@ NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, 
     const Eigen::Vector3d lever = pose.linear() * sample[i];
     const Eigen::Vector3d point = pose.translation() + lever;
     float distance = 0;
-    const VoxelGaussian* g = level.nearest(point.cast<float>(), all_voxels, distance);
+    const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
+    const VoxelGaussian* g = level.nearest(point.cast<float>(), to_sensor, all_voxels, distance);
     if (g == nullptr) continue;
     const double robust = kRobustScale / (kRobustScale + distance);
     const auto& m = g->information;
     Eigen::Matrix3d w;
     w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
+    equations.weight += robust * robust;
     equations.add(w * (robust * robust), point - g->mean.cast<double>(), lever);
   }
   equations.finish();
@@ -170,19 +184,40 @@ MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample
   return result;
 }
 
+/// The refinement alone where the guess was good, else the better fit of that and the search.
 MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
-  const Pose& start = request.guess;
   MatchResult result;
   if (config_.mode == MatcherMode::kPublished) {
-    result.T_map_sensor = climbAsPublished(map, sample, start);
-  } else {
-    const Pose found =
-        search(map, sample, static_cast<size_t>(config_.search_points), start);
-    result = refine(map, sample, found, OccupiedVoxelMap::kGaussianLevels, request.all_voxels);
+    result.T_map_sensor = climbAsPublished(map, sample, request.guess);
+    return verified(map, sample, request, result);
   }
+  const auto refineFrom = [&](const Pose& start) {
+    return verified(
+        map, sample, request,
+        refine(map, sample, start, OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
+  };
+  result = refineFrom(request.guess);
+  const double step =
+      largestStep(request.guess, result.T_map_sensor, medianRange(sample, sample.size()));
+  if (result.accepted && result.hit_ratio >= request.trusted_hit_ratio &&
+      step < kTrustedStep * map.voxelSize(1)) {
+    return result;
+  }
+  const auto points = static_cast<size_t>(config_.search_points);
+  const MatchResult searched = refineFrom(search(map, sample, points, request.guess));
+  if (!searched.accepted && result.accepted) return result;
+  if (searched.accepted && !result.accepted) return searched;
+  return searched.fit > result.fit ? searched : result;
+}
+
+MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sample,
+                              const MatchRequest& request, MatchResult result) const {
+  const Pose moved = request.guess.inverse() * result.T_map_sensor;
   result.hit_ratio = hitRatio(map, sample, result.T_map_sensor);
-  result.accepted = result.hit_ratio >= request.required_hit_ratio;
+  result.accepted = result.hit_ratio >= request.required_hit_ratio &&
+                    moved.translation().norm() <= kFarthest * request.reach &&
+                    rotationAngle(moved) <= kWidest * request.reach;
   return result;
 }
 
@@ -193,6 +228,7 @@ void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
   const auto coarseScore = [&](const Pose& pose) {
     return score(map, kFinestSearchLevel, sample, count, pose);
   };
+  const auto all_points = static_cast<size_t>(config_.search_points);
   uint64_t state = mixBits(request.seed + 1);
   int best_score = coarseScore(best.T_map_sensor);
   for (int i = 1; i <= config_.max_restarts && !best.accepted; ++i) {
@@ -201,11 +237,11 @@ void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
     const Pose found = search(map, sample, points, start);
     best.restarts = i;
     if (coarseScore(found) <= best_score) continue;
-    MatchRequest from_found = request;
-    from_found.guess = found;
-    MatchResult candidate = align(map, sample, from_found);
+    MatchResult candidate = verified(map, sample, request,
+                                     refine(map, sample, search(map, sample, all_points, found),
+                                            OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
     candidate.restarts = i;
-    if (candidate.hit_ratio <= best.hit_ratio) continue;
+    if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
     best = candidate;
     best_score = coarseScore(best.T_map_sensor);
   }
@@ -239,6 +275,7 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
       const auto equations = linearise(map.gaussians(level), sample, count, pose, all_voxels);
       result.matches = equations.matches;
       result.information = equations.h;
+      result.fit = equations.weight / static_cast<double>(count);
       if (equations.matches < 6) break;
       const Move move = -equations.h.ldlt().solve(equations.b);
       if (!move.allFinite()) break;
@@ -279,8 +316,11 @@ Pose Matcher::climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sa
 double Matcher::hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
                          const Pose& T_map_sensor) {
   if (sample.empty()) return 0.0;
-  return static_cast<double>(score(map, 1, sample, sample.size(), T_map_sensor)) /
-         static_cast<double>(sample.size());
+  const int known_level = std::min(kKnownLevel, map.levels() - 1);
+  const int hits = score(map, 1, sample, sample.size(), T_map_sensor);
+  const int known = score(map, known_level, sample, sample.size(), T_map_sensor);
+  const double least = kLeastKnown * static_cast<double>(sample.size());
+  return static_cast<double>(hits) / std::max(static_cast<double>(known), least);
 }
 
 double worstSigma(const Matrix6& information, double range) {

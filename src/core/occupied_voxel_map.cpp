@@ -36,8 +36,8 @@ size_t blocksOfEight(const BitGrid<16>& grid) {
 
 }  // namespace
 
-OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel,
-                                   const MapConfig& map, const EdgeConfig& edges, int threads)
+OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, const MapConfig& map,
+                                   const EdgeConfig& edges, int threads)
     : voxel_size_(voxel_size),
       config_(map),
       edge_config_(edges),
@@ -46,31 +46,34 @@ OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel,
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
 }
 
-void OccupiedVoxelMap::insert(const std::vector<Eigen::Vector3d>& centroids) {
-  add(centroids);
+void OccupiedVoxelMap::insert(const std::vector<Eigen::Vector3d>& centroids,
+                              const Eigen::Vector3d& sensor) {
+  add(centroids, sensor);
   if (labelDue()) label();
 }
 
-void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids) {
+void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
+                           const Eigen::Vector3d& sensor) {
   ++scans_;
   voxels_.clear();
   const double limit = (kIndexLimit - 1) * voxel_size_;
-  const bool all_inside = std::all_of(
-      centroids.begin(), centroids.end(),
-      [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
+  const bool all_inside =
+      std::all_of(centroids.begin(), centroids.end(),
+                  [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
   if (all_inside) {
-    addInside(centroids);
+    addInside(centroids, sensor);
     return;
   }
   std::vector<Eigen::Vector3d> inside;
   std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(inside),
                [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
   ignored_ += centroids.size() - inside.size();
-  addInside(inside);
+  addInside(inside, sensor);
 }
 
 /// One pass a level and a step: short loops over memory that do not wait for one another.
-void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids) {
+void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids,
+                                 const Eigen::Vector3d& sensor) {
   const double inverse_size = 1.0 / voxel_size_;
   voxels_.resize(centroids.size());
   slots_.resize(centroids.size());
@@ -78,7 +81,7 @@ void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids) 
                  [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
   addHits(centroids);
   // Parents first: a voxel that is kept counts in its parent.
-  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids);
+  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids, sensor);
   for (GaussianLevel& g : gaussians_) g.updateSelected();
 }
 
@@ -95,8 +98,7 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
     Hit& hit = hits_[slots_[i]];
-    const Eigen::Vector3f d =
-        (centroids[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
+    const Eigen::Vector3f d = (centroids[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
     for (size_t k = 0; k < 3; ++k) hit.sum[k] += d[static_cast<Eigen::Index>(k)];
     ++hit.count;
     if (hit.last_scan == scans_) continue;
@@ -108,17 +110,18 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   }
 }
 
-void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids) {
+void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids,
+                                  const Eigen::Vector3d& sensor) {
   GaussianLevel& g = level(l);
   const bool all = config_.representation == Representation::kAll;
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    const size_t known = g.size();
     const VoxelIndex v = coarser(voxels_[i], l);
     slots_[i] = g.slotFor(v);
-    if (l == 1 && slots_[i] == known) markOccupied(v);
+    if (l == 1 && g.cell(slots_[i]).hits == 0) markOccupied(v);
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    const bool hit = g.add(slots_[i], centroids[i], scans_);
+    const Eigen::Vector3f to_sensor = (sensor - centroids[i]).normalized().cast<float>();
+    const bool hit = g.add(slots_[i], centroids[i], to_sensor, scans_);
     if (!hit || g.cell(slots_[i]).hits != config_.min_hits) continue;
     if (all) g.select(slots_[i], true);
     if (!all && !g.cell(slots_[i]).kept) updateKept(l, slots_[i]);
@@ -189,11 +192,13 @@ void OccupiedVoxelMap::selectRandom() {
     size_t kept = 0;
     size_t candidates = 0;
     for (uint32_t slot = 0; slot < g.size(); ++slot) {
+      if (g.cell(slot).is_twin) continue;
       kept += g.cell(slot).kept ? 1 : 0;
       candidates += g.cell(slot).hits >= config_.min_hits ? 1 : 0;
     }
     const double fraction = static_cast<double>(kept) / static_cast<double>(candidates);
     for (uint32_t slot = 0; slot < g.size(); ++slot) {
+      if (g.cell(slot).is_twin) continue;
       const VoxelIndex& v = g.voxel(slot);
       const bool chosen = std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53) < fraction;
       g.select(slot, chosen && g.cell(slot).hits >= config_.min_hits);
@@ -230,14 +235,14 @@ size_t OccupiedVoxelMap::packedBytes() const {
   size_t bytes = blocksOfEight(all ? hit_voxels_ : edge_voxels_) * kBitBlockBytes;
   for (const BitGrid<8>& bits : occupied_) bytes += bits.blockCount() * kBitBlockBytes;
   for (const GaussianLevel& g : gaussians_) {
-    bytes += g.blocksWithSelection() * kBitBlockBytes + g.selectedCount() * kGaussianBytes;
+    bytes += g.blocksWithSelection() * kBitBlockBytes + g.selectedGaussians() * kGaussianBytes;
   }
   return bytes;
 }
 
 size_t OccupiedVoxelMap::bytes() const {
-  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
-                 edge_voxels_.bytes() + changed_.bytes();
+  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() + edge_voxels_.bytes() +
+                 changed_.bytes();
   for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
   return bytes;

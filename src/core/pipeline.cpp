@@ -17,8 +17,7 @@ Pipeline::Pipeline(const Config& config, Clock clock)
       extractor_(config.edges, config.threads),
       mapper_(config, clock) {}
 
-PipelineResult Pipeline::process(const CloudView& cloud,
-                                 const std::optional<Pose>& T_odom_sensor) {
+PipelineResult Pipeline::process(const CloudView& cloud, const std::optional<Pose>& T_odom_sensor) {
   StageTimer timer(clock_);
   PipelineResult result;
   VoxelScan scan = voxelizer_.voxelize(cloud);

@@ -10,31 +10,37 @@
 namespace edgevox {
 namespace {
 
-constexpr int kSpreadLevels = 2;   // one sample in a voxel 2^kSpreadLevels scan voxels wide
+constexpr int kSpreadLevels = 2;
 constexpr size_t kDeskewPoses = 512;
 
-/// Positions of the first voxel in each coarser one.
-std::vector<size_t> thinned(const VoxelScan& scan, int levels) {
-  BitGrid<8> seen;
-  std::vector<size_t> kept;
+/// Appends positions of voxels, one in each that is 2^levels times larger and has none, in an
+/// order fixed by hash, until there are `count`.
+void addSpread(const VoxelScan& scan, int levels, size_t count, std::vector<bool>& taken,
+               std::vector<size_t>& sample) {
+  BitGrid<8> covered;
+  for (const size_t i : sample) covered.set(coarser(scan.voxels[i].index, levels));
+  std::vector<std::pair<uint64_t, size_t>> ranked;
   for (size_t i = 0; i < scan.voxels.size(); ++i) {
-    if (seen.set(coarser(scan.voxels[i].index, levels))) kept.push_back(i);
+    const VoxelIndex& index = scan.voxels[i].index;
+    if (!taken[i] && covered.set(coarser(index, levels))) ranked.emplace_back(voxelHash(index), i);
   }
-  return kept;
+  const size_t wanted = std::min(count - sample.size(), ranked.size());
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(wanted),
+                    ranked.end());
+  for (size_t i = 0; i < wanted; ++i) {
+    sample.push_back(ranked[i].second);
+    taken[ranked[i].second] = true;
+  }
 }
 
 }  // namespace
 
 std::vector<size_t> sampleVoxels(const VoxelScan& scan, size_t count) {
-  std::vector<std::pair<uint64_t, size_t>> ranked;
-  for (const size_t i : thinned(scan, kSpreadLevels)) {
-    ranked.emplace_back(voxelHash(scan.voxels[i].index), i);
+  std::vector<size_t> sample;
+  std::vector<bool> taken(scan.voxels.size(), false);
+  for (int levels = kSpreadLevels; levels >= 0 && sample.size() < count; --levels) {
+    addSpread(scan, levels, count, taken, sample);
   }
-  const size_t kept = std::min(count, ranked.size());
-  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept),
-                    ranked.end());
-  std::vector<size_t> sample(kept);
-  for (size_t i = 0; i < kept; ++i) sample[i] = ranked[i].second;
   return sample;
 }
 

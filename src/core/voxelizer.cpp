@@ -158,8 +158,7 @@ void Voxelizer::collect(VoxelScan& scan) {
       uint16_t& slot = slot_of_cell_[point.cell];
       if (slot == 0) {
         const auto cell = static_cast<int>(point.cell);
-        scan.voxels.emplace_back().index =
-            Layout::voxel(table_.block(block), cell / 16, cell % 16);
+        scan.voxels.emplace_back().index = Layout::voxel(table_.block(block), cell / 16, cell % 16);
         slot = static_cast<uint16_t>(scan.voxels.size() - first);
       }
       ScanVoxel& voxel = scan.voxels[first + slot - 1];
