@@ -77,6 +77,7 @@ class GaussianLevel {
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
   const VoxelGaussian& gaussian(uint32_t slot) const { return gaussians_[slot]; }
+  bool isSelected(uint32_t slot) const;
   /// Voxels.
   size_t selectedCount() const { return selected_count_; }
   /// Gaussians of the selected voxels.
@@ -92,7 +93,6 @@ class GaussianLevel {
                                    const Eigen::Vector3f& to_sensor, bool all) const;
   uint32_t newCell(const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
-  bool isSelected(uint32_t slot) const;
   void update(uint32_t slot);
 
   double voxel_size_;

@@ -136,6 +136,8 @@ std::string valueText(const Parameter& p) {
     std::ostringstream out;
     out.precision(digits);
     out << value;
+    const bool scientific = out.str().find('e') != std::string::npos;
+    if (scientific && std::abs(value) >= 1.0 && std::abs(value) < 1e7) continue;
     if (std::strtod(out.str().c_str(), nullptr) == value) return out.str();
   }
   return "nan";

@@ -32,6 +32,10 @@ double typicalRange(const ScanSample& sample) {
   return *middle;
 }
 
+Matrix6 covarianceOf(const Matrix6& information) {
+  return kVarianceInflation * information.inverse();
+}
+
 }  // namespace
 
 const char* name(ScanStatus status) {
@@ -125,6 +129,7 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
                                        now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
   now.T_map_sensor = refined.T_map_sensor;
+  result.covariance = covarianceOf(refined.information);
 }
 
 /// Takes `now` as the place of the sensor and updates the motion.
@@ -179,7 +184,7 @@ MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, ScanResu
   if (match.accepted) {
     hit_ratios_.add(match.hit_ratio);
     if (!published) sigmas_.add(sigma);
-    if (!published) result.covariance = kVarianceInflation * match.information.inverse();
+    if (!published) result.covariance = covarianceOf(match.information);
   } else {
     result.status = ScanStatus::kLost;
   }

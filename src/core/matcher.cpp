@@ -2,7 +2,6 @@
 #include "edgevox/matcher.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,11 +22,10 @@ constexpr double kLeastKnown = 0.25;                   // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
 constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
+constexpr double kLargestMove = 10.0;        // of one step [m, rad]
 constexpr double kConvergedDistance = 5e-4;  // [m]
 constexpr double kConvergedAngle = 5e-5;     // [rad]
 constexpr float kRobustScale = 9.0F;         // squared Mahalanobis distance
-
-using Points = std::vector<Eigen::Vector3d>;
 
 /// A move of the discrete search: translation in the map's axes, rotation about the sensor.
 using Move = Eigen::Matrix<double, 6, 1>;
@@ -278,7 +276,7 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
       result.fit = equations.weight / static_cast<double>(count);
       if (equations.matches < 6) break;
       const Move move = -equations.h.ldlt().solve(equations.b);
-      if (!move.allFinite()) break;
+      if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
       pose = apply(pose, move);
       if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
         break;
