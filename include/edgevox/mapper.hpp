@@ -95,7 +95,8 @@ class Mapper {
   Pose predict(const Located& now) const;
   Twist twistTo(double time, const Pose& T_map_sensor) const;
   Twist twistInSweep(const Twist& twist) const;
-  MatchResult locate(const ScanSample& sample, const Pose& guess, ScanResult& result);
+  MatchResult locate(const ScanSample& sample, const Pose& guess, double since_last,
+                     ScanResult& result);
   bool needsFallback(const MatchResult& match, double sigma) const;
   double requiredHitRatio() const;
   double trustedHitRatio() const;

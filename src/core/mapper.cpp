@@ -2,6 +2,7 @@
 #include "edgevox/mapper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/LU>
 
@@ -14,6 +15,10 @@ constexpr size_t kFewestVoxels = 50;
 constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kTrusted = 0.95;           // of the running median of the hit ratios
 constexpr double kLongestReach = 4.0;
+constexpr double kFarthest = 2.0;                      // a match from its prediction [m]
+constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
+constexpr double kWidest = 60.0 * M_PI / 180.0;        // [rad]
+constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
 constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity to the sweep
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
@@ -121,7 +126,8 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   const Pose guess = predict(now);
   const bool has_odom = now.T_odom_sensor && last_->T_odom_sensor;
   Twist twist = has_odom ? twistTo(now.time, guess) : twist_in_sweep_;
-  const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}), guess, result);
+  const MatchResult found =
+      locate(deskewed(scan, positions, {sweep, twist}), guess, now.time - last_->time, result);
   if (!found.accepted) return;
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
@@ -162,12 +168,17 @@ Twist Mapper::twistTo(double time, const Pose& T_map_sensor) const {
   return twistOf(last_->T_map_sensor.inverse() * T_map_sensor, time - last_->time);
 }
 
-MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, ScanResult& result) {
+MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double since_last,
+                           ScanResult& result) {
   MatchRequest request;
   request.guess = guess;
   request.required_hit_ratio = requiredHitRatio();
   request.trusted_hit_ratio = trustedHitRatio();
   request.reach = std::min(1.0 + lost_in_a_row_, kLongestReach);
+  request.far_hit_ratio =
+      hit_ratios_.empty() ? request.required_hit_ratio : kTrusted * hit_ratios_.median();
+  request.farthest = kFarthest + kFastest * since_last;
+  request.widest = kWidest + kFastestTurn * since_last;
   request.seed = result.number;
   const double range = typicalRange(sample);
   const bool published = config_.matcher.mode == MatcherMode::kPublished;

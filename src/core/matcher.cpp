@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kRestartDistance = 1.0;               // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
-constexpr double kFarthest = 2.0;                      // a match from its guess [m]
-constexpr double kWidest = 60.0 * M_PI / 180.0;        // the same [rad]
 constexpr double kTrustedStep = 1.0;                   // of a refinement alone [voxel of level 1]
 constexpr double kLeastKnown = 0.25;                   // of a sample
 constexpr int kKnownLevel = 3;
@@ -212,10 +210,11 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
 MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
   const Pose moved = request.guess.inverse() * result.T_map_sensor;
+  const double distance = std::max(moved.translation().norm() / request.farthest,
+                                   rotationAngle(moved) / request.widest);
+  const double required = distance > 0.5 ? request.far_hit_ratio : request.required_hit_ratio;
   result.hit_ratio = hitRatio(map, sample, result.T_map_sensor);
-  result.accepted = result.hit_ratio >= request.required_hit_ratio &&
-                    moved.translation().norm() <= kFarthest * request.reach &&
-                    rotationAngle(moved) <= kWidest * request.reach;
+  result.accepted = distance <= 1.0 && result.hit_ratio >= required;
   return result;
 }
 
