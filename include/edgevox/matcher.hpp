@@ -78,6 +78,9 @@ class Matcher {
   MatcherConfig config_;
 };
 
+/// Median distance of the first `count` > 0 points from the sensor [m].
+double medianRange(const ScanSample& sample, size_t count);
+
 /// Worst standard deviation of a match [m]: of the translation, or of the rotation at `range`.
 double worstSigma(const Matrix6& information, double range);
 

@@ -28,15 +28,6 @@ ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
   return sample;
 }
 
-double typicalRange(const ScanSample& sample) {
-  std::vector<double> ranges(sample.size());
-  std::transform(sample.begin(), sample.end(), ranges.begin(),
-                 [](const Eigen::Vector3d& p) { return p.norm(); });
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
-}
-
 Matrix6 covarianceOf(const Matrix6& information) {
   return kVarianceInflation * information.inverse();
 }
@@ -176,11 +167,11 @@ MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double s
   request.trusted_hit_ratio = trustedHitRatio();
   request.reach = std::min(1.0 + lost_in_a_row_, kLongestReach);
   request.far_hit_ratio =
-      hit_ratios_.empty() ? request.required_hit_ratio : kTrusted * hit_ratios_.median();
+      hit_ratios_.empty() ? request.required_hit_ratio : request.trusted_hit_ratio;
   request.farthest = kFarthest + kFastest * since_last;
   request.widest = kWidest + kFastestTurn * since_last;
   request.seed = result.number;
-  const double range = typicalRange(sample);
+  const double range = medianRange(sample, sample.size());
   const bool published = config_.matcher.mode == MatcherMode::kPublished;
 
   result.status = ScanStatus::kTracked;

@@ -37,14 +37,6 @@ Pose apply(const Pose& pose, const Move& move) {
 
 size_t prefix(const ScanSample& sample, size_t count) { return std::min(sample.size(), count); }
 
-double medianRange(const ScanSample& sample, size_t count) {
-  std::vector<double> ranges(count);
-  for (size_t i = 0; i < count; ++i) ranges[i] = sample[i].norm();
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
-}
-
 /// Number of the first `count` points that land in occupied voxels of a level.
 int score(const OccupiedVoxelMap& map, int level, const ScanSample& sample, size_t count,
           const Pose& pose) {
@@ -172,6 +164,14 @@ Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
 }
 
 }  // namespace
+
+double medianRange(const ScanSample& sample, size_t count) {
+  std::vector<double> ranges(count);
+  for (size_t i = 0; i < count; ++i) ranges[i] = sample[i].norm();
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
 
 MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
