@@ -25,7 +25,8 @@ void open(const std::string& file, rosbag::Bag& bag) {
                    "'rosbag reindex " + file + "' first");
   } catch (const std::exception& error) {
     throw BagError("'" + file + "' cannot be read as a bag (" + error.what() +
-                   "); give a file that rosbag record has written");
+                   "); give a file that rosbag record has written, or try 'rosbag reindex " + file +
+                   "' if it is damaged");
   }
 }
 

@@ -11,11 +11,18 @@ CloudMapping::CloudMapping(const Config& config, const SensorFrames& frames, Con
 void CloudMapping::add(size_t cloud, const sensor_msgs::PointCloud2::ConstPtr& message) {
   if (!message) {
     return leaveOut(cloud, "undecodable",
-                    "the message cannot be decoded; the bag may be damaged, see 'rosbag check'");
+                    "it cannot be decoded: the bag is damaged or holds another version of "
+                    "sensor_msgs/PointCloud2, see 'rosbag check'");
   }
   const CloudReading reading = readCloud(*message);
   if (const auto* error = std::get_if<CloudError>(&reading)) {
     return leaveOut(cloud, name(error->fault), error->text);
+  }
+  const std::string& frame = message->header.frame_id;
+  if (!scans_.empty() && frame != frame_) {
+    return leaveOut(cloud, "other_frame",
+                    "its frame is '" + frame + "', that of the first scan is '" + frame_ +
+                        "'; one sensor can be mapped, give its clouds a topic of their own");
   }
   process(cloud, *message, std::get<CheckedCloud>(reading));
 }
@@ -35,6 +42,7 @@ void CloudMapping::process(size_t cloud, const sensor_msgs::PointCloud2& message
   }
   printNote(checked.note);
   time_field_ = checked.time_field;
+  frame_ = header.frame_id;
   const std::optional<Pose> T_odom_sensor = odometryOf(cloud, header);
 
   StageTimer timer(Clock::kProcessCpu);

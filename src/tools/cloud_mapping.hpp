@@ -26,7 +26,8 @@ struct ScanRecord {
 };
 
 /// Maps the clouds of one sensor and keeps account of them. The map frame is the sensor's frame at
-/// its first scan. A cloud that cannot be read, or whose mounting is not known, is left out.
+/// its first scan. A cloud that cannot be read, that is in another frame than the first scan, or
+/// whose mounting is not known, is left out.
 class CloudMapping {
  public:
   /// `frames` and `console` must outlive this. Throws ConfigError.
@@ -56,6 +57,7 @@ class CloudMapping {
   std::vector<ScanRecord> scans_;
   std::map<std::string, size_t> left_out_;
   size_t without_odometry_ = 0;
+  std::string frame_;  // of all scans
   std::string time_field_;
   std::string printed_note_;
 };

@@ -178,6 +178,7 @@ std::string yamlText(const Config& config) {
   std::string text;
   std::string group;
   for (const Parameter& parameter : parametersOf(copy)) {
+    if (parameter.name == "threads") continue;  // no result depends on it
     const size_t slash = parameter.name.find('/');
     const bool grouped = slash != std::string::npos;
     const std::string its_group = grouped ? parameter.name.substr(0, slash) : "";

@@ -17,7 +17,7 @@ void Console::print(const std::string& line) {
 
 void Console::showProgress(size_t done, size_t total) {
   if (total == 0) return;
-  const std::string count = std::to_string(done) + " of " + std::to_string(total) + " clouds";
+  const std::string count = std::to_string(done) + " of " + std::to_string(total) + " " + unit_;
   if (terminal_) {
     const size_t filled = kBarWidth * done / total;
     out_ << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] "

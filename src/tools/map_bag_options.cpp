@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <cerrno>
-#include <cstdlib>
+#include <cctype>
 #include <iostream>
 
 #include "tools/config_file.hpp"
@@ -68,13 +67,15 @@ size_t countOf(const std::string& text, const char* option) {
     return std::isdigit(c) != 0;
   });
   if (digits && text.size() < 10) return std::stoul(text);
-  throw UsageError(std::string("--") + option + " needs a whole number, not '" + text + "'");
+  throw UsageError(std::string("--") + option + " needs a whole number of up to 9 digits, not '" +
+                   text + "'");
 }
 
 CloudRange rangeOf(const std::string& text) {
-  const size_t dash = std::min(text.find('-'), text.size());
+  const size_t dash = text.find('-');
+  if (dash == std::string::npos) throw UsageError("--skip needs a range A-B, not '" + text + "'");
   const CloudRange range{countOf(text.substr(0, dash), "skip"),
-                         countOf(text.substr(std::min(dash + 1, text.size())), "skip")};
+                         countOf(text.substr(dash + 1), "skip")};
   if (range.first > range.last) throw UsageError("--skip " + text + ": the first is the larger");
   return range;
 }

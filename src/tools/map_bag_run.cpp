@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/map_bag_run.hpp"
 
+#include <array>
 #include <optional>
 
 #include "edgevox/atomic_file.hpp"
@@ -17,8 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTransformCache = 30.0 * 24 * 3600;  // [s], longer than any bag
+constexpr std::array<const char*, 7> kResults = {
+    "trajectory.tum", "map_edges.ply", "map_edges.pcd", "map_occupied.ply",
+    "timings.csv",    "errors.csv",    "summary.json"};
 
-/// Also takes out of it what an earlier run may have left and this one may not write.
+/// Also takes out of it what an earlier run has left: this one may fail, or write fewer files.
 void makeFolder(const fs::path& folder, const Config& config) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -26,7 +30,7 @@ void makeFolder(const fs::path& folder, const Config& config) {
     throw FileError("cannot make the folder '" + folder.string() + "': " + error.message() +
                     "; choose another one with --output");
   }
-  for (const char* file : {"errors.csv", "map_occupied.ply"}) fs::remove(folder / file, error);
+  for (const char* file : kResults) fs::remove(folder / file, error);
   writeFile(folder / "config.yaml", yamlText(config));
 }
 

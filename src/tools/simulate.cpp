@@ -1,30 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the sweeps of a simulated lidar, its true trajectory and its mounting to a bag.
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/datatypes.h>
 #include <rosbag/bag.h>
+#include <rosbag/exceptions.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "edgevox/atomic_file.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
+#include "tools/console.hpp"
 
 namespace edgevox::sim {
 namespace {
@@ -164,17 +170,25 @@ void assign(const Eigen::Vector3d& vector, Message& message) {
   message.z = vector.z();
 }
 
-// Pose and velocity in the sensor's frame; the covariances are zero, as this is the truth.
-nav_msgs::Odometry toOdometry(const Trajectory& trajectory, double time, std::uint32_t sequence) {
+// Velocity in the sensor's frame.
+geometry_msgs::Twist twistAt(const Trajectory& trajectory, double time) {
   constexpr double kHalfStep = 0.005;  // s, of the difference that gives the velocity
-  const Eigen::Isometry3d T_world_sensor = trajectory.poseAt(time);
   const Eigen::Isometry3d before = trajectory.poseAt(time - kHalfStep);
   const Eigen::Isometry3d after = trajectory.poseAt(time + kHalfStep);
-  const Eigen::Quaterniond q(T_world_sensor.linear());
-  const Eigen::Vector3d velocity = T_world_sensor.linear().transpose() *
+  const Eigen::Vector3d velocity = trajectory.poseAt(time).linear().transpose() *
                                    (after.translation() - before.translation()) / (2 * kHalfStep);
   const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
   const Eigen::Vector3d rate = turn.axis() * turn.angle() / (2 * kHalfStep);
+  geometry_msgs::Twist twist;
+  assign(velocity, twist.linear);
+  assign(rate, twist.angular);
+  return twist;
+}
+
+// Without the velocity; the covariances are zero, as this is the truth.
+nav_msgs::Odometry toOdometry(const Trajectory& trajectory, double time, std::uint32_t sequence) {
+  const Eigen::Isometry3d T_world_sensor = trajectory.poseAt(time);
+  const Eigen::Quaterniond q(T_world_sensor.linear());
   nav_msgs::Odometry odometry;
   odometry.header.seq = sequence;
   odometry.header.stamp = stampOf(time);
@@ -183,8 +197,6 @@ nav_msgs::Odometry toOdometry(const Trajectory& trajectory, double time, std::ui
   assign(T_world_sensor.translation(), odometry.pose.pose.position);
   assign(q.vec(), odometry.pose.pose.orientation);
   odometry.pose.pose.orientation.w = q.w();
-  assign(velocity, odometry.twist.twist.linear);
-  assign(rate, odometry.twist.twist.angular);
   return odometry;
 }
 
@@ -207,40 +219,15 @@ void writeMounting(rosbag::Bag& bag, double height) {
 }
 
 // stamp tx ty tz qx qy qz qw of T_world_sensor.
-void writeTumLine(std::ostream& out, const nav_msgs::Odometry& odometry) {
+std::string tumLine(const nav_msgs::Odometry& odometry) {
   const auto& p = odometry.pose.pose.position;
   const auto& q = odometry.pose.pose.orientation;
   char line[256];
   std::snprintf(line, sizeof line, "%u.%09u %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
                 odometry.header.stamp.sec, odometry.header.stamp.nsec, p.x, p.y, p.z, q.x, q.y, q.z,
                 q.w);
-  out << line;
+  return line;
 }
-
-// A file written under another name in the same folder, and removed unless it was kept.
-class UnfinishedFile {
- public:
-  explicit UnfinishedFile(fs::path target)
-      : target_(std::move(target)), path_(target_.string() + ".part") {}
-  UnfinishedFile(const UnfinishedFile&) = delete;
-  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
-  ~UnfinishedFile() {
-    std::error_code ignored;
-    if (!kept_) fs::remove(path_, ignored);
-  }
-
-  const fs::path& path() const { return path_; }
-
-  void keep() {
-    fs::rename(path_, target_);
-    kept_ = true;
-  }
-
- private:
-  fs::path target_;
-  fs::path path_;
-  bool kept_ = false;
-};
 
 struct Run {
   World world;
@@ -262,53 +249,80 @@ Run prepareRun(const Options& options) {
   return {makeWorld(name, options.seed), sensor, std::move(trajectory), sweeps};
 }
 
-void writeSweeps(const Run& run, std::uint64_t seed, rosbag::Bag& bag, std::ostream& tum) {
+volatile std::sig_atomic_t interrupted = 0;
+
+// Gives the trajectory in TUM format.
+std::string writeSweeps(const Run& run, std::uint64_t seed, rosbag::Bag& bag, Console& console) {
   const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   const int batch = 2 * static_cast<int>(threads);
+  std::string tum;
   for (int first = 0; first < run.sweeps; first += batch) {
     const int count = std::min(batch, run.sweeps - first);
     const auto scans =
         simulateSweeps(run.world, run.trajectory, run.sensor, first, count, seed, threads);
     for (const Scan& scan : scans) {
       const auto sequence = static_cast<std::uint32_t>(first + (&scan - scans.data()));
-      const nav_msgs::Odometry truth = toOdometry(run.trajectory, scan.stamp, sequence);
+      nav_msgs::Odometry truth = toOdometry(run.trajectory, scan.stamp, sequence);
+      if (!run.sensor.standing) truth.twist.twist = twistAt(run.trajectory, scan.stamp);
       bag.write("/ground_truth", truth.header.stamp, truth);
       bag.write("/points", truth.header.stamp, toCloud(scan, sequence));
-      writeTumLine(tum, truth);
+      tum += tumLine(truth);
     }
-    std::cerr << "\rsweep " << first + count << " of " << run.sweeps << std::flush;
+    if (interrupted != 0) throw std::runtime_error("interrupted, nothing was written");
+    console.showProgress(static_cast<size_t>(first + count), static_cast<size_t>(run.sweeps));
   }
-  std::cerr << "\n";
+  return tum;
 }
 
-void simulate(const Options& options) {
+// rosbag's destructor closes the bag, and throws, which ends the program, if that fails: a bag that
+// could not be written is therefore never destroyed.
+template <typename Write>
+void writeBag(const fs::path& file, const Write& write) {
+  auto bag = std::make_unique<rosbag::Bag>();
+  try {
+    bag->open(file.string(), rosbag::bagmode::Write);
+    bag->setCompression(rosbag::compression::LZ4);
+    write(*bag);
+    bag->close();
+  } catch (...) {
+    static_cast<void>(bag.release());
+    throw;
+  }
+}
+
+void simulate(const Options& options, Console& console) {
   const Run run = prepareRun(options);
-  fs::path tum_target = options.output;
-  tum_target.replace_extension(".tum");
-  UnfinishedFile bag_file(options.output);
-  UnfinishedFile tum_file(tum_target);
-  std::ofstream tum(tum_file.path());
-  if (!tum) throw std::runtime_error("cannot write " + tum_file.path().string());
-  rosbag::Bag bag;
-  bag.open(bag_file.path().string(), rosbag::bagmode::Write);
-  bag.setCompression(rosbag::compression::LZ4);
-  writeMounting(bag, sensorHeight(parseWorldName(options.world)));
-  writeSweeps(run, options.seed, bag, tum);
-  bag.close();
-  tum.close();
-  if (!tum) throw std::runtime_error("cannot write " + tum_file.path().string());
+  AtomicFile bag_file(options.output);
+  std::string tum;
+  try {
+    writeBag(bag_file.temporary(), [&](rosbag::Bag& bag) {
+      writeMounting(bag, sensorHeight(parseWorldName(options.world)));
+      tum = writeSweeps(run, options.seed, bag, console);
+    });
+  } catch (const rosbag::BagException& error) {
+    throw FileError("cannot write '" + options.output.string() + "' (" + error.what() +
+                    "); check that its folder exists, may be written to and has space left");
+  }
+  writeFile(fs::path(options.output).replace_extension(".tum"), tum);
   bag_file.keep();
-  tum_file.keep();
 }
 
 }  // namespace
 }  // namespace edgevox::sim
 
 int main(int argc, char** argv) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int) { edgevox::sim::interrupted = 1; });
+  }
   try {
     const auto options = edgevox::sim::parseOptions(argc, argv);
-    if (options) edgevox::sim::simulate(*options);
+    if (!options) return 0;
+    edgevox::Console console(std::cerr, isatty(STDERR_FILENO) != 0, "sweeps");
+    edgevox::sim::simulate(*options, console);
     return 0;
+  } catch (const std::logic_error& error) {  // options and their values
+    std::cerr << "simulate: " << error.what() << "; see simulate --help\n";
+    return 2;
   } catch (const std::exception& error) {
     std::cerr << "simulate: " << error.what() << "\n";
     return 1;

@@ -108,8 +108,15 @@ TEST(ConfigFile, textHasAllParametersAndReadsBack) {
   EXPECT_EQ(yamlText(read), text);
   for (const Parameter& parameter : parametersOf(config)) {
     const std::string last = parameter.name.substr(parameter.name.rfind('/') + 1);
+    if (last == "threads") continue;
     EXPECT_NE(text.find(last + ": " + valueText(parameter) + "\n"), std::string::npos) << last;
   }
+}
+
+TEST(ConfigFile, theTextDoesNotDependOnTheNumberOfThreads) {
+  Config config;
+  config.threads = 4;
+  EXPECT_EQ(yamlText(config), yamlText(Config()));
 }
 
 TEST(ConfigFile, presets) {
