@@ -46,6 +46,7 @@ class GaussianLevel {
     bool kept = false;              ///< an edge or an anchor, or holds one
     bool stale = false;             ///< changed since its Gaussian was computed
     bool is_twin = false;           ///< only sums, count and view are its own
+    bool selected = false;          ///< for matching; a twin follows its voxel
   };
 
   explicit GaussianLevel(double voxel_size) : voxel_size_(voxel_size) {}
@@ -77,7 +78,6 @@ class GaussianLevel {
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
   const VoxelGaussian& gaussian(uint32_t slot) const { return gaussians_[slot]; }
-  bool isSelected(uint32_t slot) const;
   /// Voxels.
   size_t selectedCount() const { return selected_count_; }
   /// Gaussians of the selected voxels.
@@ -164,8 +164,7 @@ class OccupiedVoxelMap {
 
   void addInside(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   void addHits(const std::vector<Eigen::Vector3d>& centroids);
-  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids,
-                  const Eigen::Vector3d& sensor);
+  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
   void markOccupied(const VoxelIndex& v);
   bool isAnchor(const VoxelIndex& v) const;
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
@@ -187,9 +186,10 @@ class OccupiedVoxelMap {
   BitGrid<16> edge_voxels_;
   BitGrid<16> changed_;  // hit voxels since the last labelling
   std::vector<GaussianLevel> gaussians_;
-  std::vector<BitGrid<8>> occupied_;  // [0] is not used
-  std::vector<VoxelIndex> voxels_;    // of the scan being added, at level 0
-  std::vector<uint32_t> slots_;       // of the same, at one level
+  std::vector<BitGrid<8>> occupied_;        // [0] is not used
+  std::vector<VoxelIndex> voxels_;          // of the scan being added, at level 0
+  std::vector<Eigen::Vector3f> to_sensor_;  // of the same, unit vectors
+  std::vector<uint32_t> slots_;             // of the same, at one level
 };
 
 }  // namespace edgevox

@@ -166,6 +166,7 @@ uint32_t GaussianLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor
   if (gaussians_[slot].twin == VoxelGaussian::kNoTwin) {
     const uint32_t twin = newCell(voxels_[slot]);
     cells_[twin].is_twin = true;
+    cells_[twin].selected = cells_[slot].selected;
     gaussians_[slot].twin = twin;
   }
   return gaussians_[slot].twin;
@@ -206,7 +207,7 @@ void GaussianLevel::update(uint32_t slot) {
 void GaussianLevel::updateSelected() {
   const auto keep = std::remove_if(stale_.begin(), stale_.end(), [this](uint32_t slot) {
     if (!cells_[slot].stale) return true;
-    if (!isSelected(slot)) return false;
+    if (!cells_[slot].selected) return false;
     update(slot);
     return true;
   });
@@ -220,28 +221,22 @@ void GaussianLevel::updateAll() {
   stale_.clear();
 }
 
-bool GaussianLevel::isSelected(uint32_t slot) const {
-  const VoxelIndex& v = voxels_[slot];
-  const auto block = static_cast<size_t>(grid_.findBlock(Layout::block(v)));
-  const uint8_t row = selected_[block][static_cast<size_t>(Layout::row(v))];
-  return ((row >> Layout::column(v)) & 1) != 0;
-}
-
 void GaussianLevel::select(uint32_t slot, bool selected) {
-  if (isSelected(slot) == selected) return;
+  if (cells_[slot].selected == selected) return;
   const VoxelIndex& v = voxels_[slot];
   const auto block = static_cast<size_t>(grid_.findBlock(Layout::block(v)));
   uint8_t& row = selected_[block][static_cast<size_t>(Layout::row(v))];
   row = static_cast<uint8_t>(row ^ (1U << Layout::column(v)));
   selected ? ++selected_count_ : --selected_count_;
-  if (selected && cells_[slot].stale) update(slot);
-  const uint32_t twin = gaussians_[slot].twin;
-  if (selected && twin != VoxelGaussian::kNoTwin && cells_[twin].stale) update(twin);
+  for (uint32_t side = slot; side != VoxelGaussian::kNoTwin; side = gaussians_[side].twin) {
+    cells_[side].selected = selected;
+    if (selected && cells_[side].stale) update(side);
+  }
 }
 
 size_t GaussianLevel::selectedGaussians() const {
   size_t count = 0;
-  for (uint32_t slot = 0; slot < size(); ++slot) count += isSelected(slot) ? 1 : 0;
+  for (uint32_t slot = 0; slot < size(); ++slot) count += cells_[slot].selected ? 1 : 0;
   return count;
 }
 

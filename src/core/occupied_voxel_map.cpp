@@ -76,12 +76,17 @@ void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids,
                                  const Eigen::Vector3d& sensor) {
   const double inverse_size = 1.0 / voxel_size_;
   voxels_.resize(centroids.size());
+  to_sensor_.resize(centroids.size());
   slots_.resize(centroids.size());
   std::transform(centroids.begin(), centroids.end(), voxels_.begin(),
                  [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
+  std::transform(centroids.begin(), centroids.end(), to_sensor_.begin(),
+                 [&](const Eigen::Vector3d& c) -> Eigen::Vector3f {
+                   return (sensor - c).cast<float>().normalized();
+                 });
   addHits(centroids);
   // Parents first: a voxel that is kept counts in its parent.
-  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids, sensor);
+  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids);
   for (GaussianLevel& g : gaussians_) g.updateSelected();
 }
 
@@ -110,8 +115,7 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   }
 }
 
-void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids,
-                                  const Eigen::Vector3d& sensor) {
+void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids) {
   GaussianLevel& g = level(l);
   const bool all = config_.representation == Representation::kAll;
   for (size_t i = 0; i < voxels_.size(); ++i) {
@@ -120,8 +124,7 @@ void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& cen
     if (l == 1 && g.cell(slots_[i]).hits == 0) markOccupied(v);
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    const Eigen::Vector3f to_sensor = (sensor - centroids[i]).normalized().cast<float>();
-    const bool hit = g.add(slots_[i], centroids[i], to_sensor, scans_);
+    const bool hit = g.add(slots_[i], centroids[i], to_sensor_[i], scans_);
     if (!hit || g.cell(slots_[i]).hits != config_.min_hits) continue;
     if (all) g.select(slots_[i], true);
     if (!all && !g.cell(slots_[i]).kept) updateKept(l, slots_[i]);
