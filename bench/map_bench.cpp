@@ -17,7 +17,7 @@ using benchmark::State;
 OccupiedVoxelMap mapOf(const Sequence& s, size_t scans) {
   OccupiedVoxelMap map(s.config.voxel_size, s.config.matcher.coarsest_voxel, s.config.map,
                        s.config.edges, 1);
-  for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i]);
+  for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i], s.poses[i].translation());
   map.label();
   return map;
 }
@@ -42,19 +42,19 @@ void timeSteps(State& state, const std::string& name, const Step& step, const Be
   }
 }
 
+void addScan(OccupiedVoxelMap& map, const Sequence& s, size_t i) {
+  map.add(s.centroids[i], s.poses[i].translation());
+}
+
 void insert(State& state, const std::string& name) {
-  timeSteps(
-      state, name,
-      [](OccupiedVoxelMap& map, const Sequence& s, size_t i) { map.add(s.centroids[i]); },
-      [](OccupiedVoxelMap& map, const Sequence&, size_t) {
-        if (map.labelDue()) map.label();
-      });
+  timeSteps(state, name, addScan, [](OccupiedVoxelMap& map, const Sequence&, size_t) {
+    if (map.labelDue()) map.label();
+  });
 }
 
 void label(State& state, const std::string& name) {
   timeSteps(
-      state, name, [](OccupiedVoxelMap& map, const Sequence&, size_t) { map.label(); },
-      [](OccupiedVoxelMap& map, const Sequence& s, size_t i) { map.add(s.centroids[i]); });
+      state, name, [](OccupiedVoxelMap& map, const Sequence&, size_t) { map.label(); }, addScan);
 }
 
 ScanSample sampleOf(const Sequence& s, size_t i) {
@@ -83,8 +83,9 @@ void refine(State& state, const std::string& name) {
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
+  constexpr int kLevels = OccupiedVoxelMap::kGaussianLevels;
   const Pose found = matcher.search(map, sample, points, s.predicted(s.sample()));
-  for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map, sample, found, false));
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map, sample, found, kLevels, false));
 }
 
 /// All stages, a scan.

@@ -10,7 +10,6 @@
 #include <utility>
 #include <variant>
 
-#include "core/scan_sample.hpp"
 #include "edgevox/motion.hpp"
 #include "edgevox/pipeline.hpp"
 #include "ros/point_cloud.hpp"
@@ -121,10 +120,12 @@ Twist twistAt(const Sequence& sequence, size_t i) {
 
 void placeInMap(Sequence& sequence) {
   for (size_t i = 0; i < sequence.size(); ++i) {
-    const Deskew deskew(sequence.scans[i], twistAt(sequence, i));
+    const Twist twist = twistAt(sequence, i);
     auto& centroids = sequence.centroids.emplace_back();
     for (const ScanVoxel& voxel : sequence.scans[i].voxels) {
-      centroids.push_back(sequence.poses[i] * deskew(voxel));
+      const Pose T_map_then =
+          sequence.poses[i] * moved(twist, static_cast<double>(voxel.time_offset));
+      centroids.push_back(T_map_then * voxel.centroid.cast<double>());
     }
   }
 }

@@ -28,6 +28,7 @@ struct VoxelGaussian {
   uint32_t twin = kNoTwin;  ///< the surface in the same voxel seen from the other side
 
   static constexpr uint32_t kNoTwin = 0xffffffff;
+  bool hasSide() const { return side.squaredNorm() > 0; }
   bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
 };
 
@@ -93,7 +94,9 @@ class GaussianLevel {
                                    const Eigen::Vector3f& to_sensor, bool all) const;
   uint32_t newCell(const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
-  void update(uint32_t slot);
+  enum class Side { kKeep, kRefresh };
+  /// A side that is kept but not known yet is set.
+  void update(uint32_t slot, Side side);
 
   double voxel_size_;
   SlotGrid<8> grid_;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSensorSigma = 0.02;  // [m]
 constexpr double kVoxelSigma = 0.3;    // [voxel]; spread assumed where few points tell
 constexpr double kPriorWeight = 2.0;   // [centroids]
-constexpr double kAlongShare = 0.25;   // of the information along a surface that is used
+constexpr double kAlongShare = 0.1;    // of the information along a surface that is used
 constexpr double kFlat = 0.1;          // of the variance at most across a flat voxel
 constexpr double kBehind = 0.02;       // cosine to the normal of a surface seen from behind
 constexpr double kOpposite = 0.3;      // cosine between views of two sides of anything else
@@ -61,7 +61,7 @@ Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, Eigen::Matrix3d
   const double middle = covariance.trace() - e.least - e.greatest;
   const double spread = e.greatest - e.least;
   across.setZero();
-  if (!(spread > 1e-6 * e.greatest)) return across;
+  if (!(spread > 1e-4 * e.greatest)) return across;
   across = (covariance - middle * identity) * (covariance - e.greatest * identity) /
            (e.least * middle * spread);
   return kAlongShare * (covariance.inverse() - identity / e.greatest) + (1 - kAlongShare) * across;
@@ -197,10 +197,12 @@ bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
   return true;
 }
 
-void GaussianLevel::update(uint32_t slot) {
-  const uint32_t twin = gaussians_[slot].twin;
-  gaussians_[slot] = gaussianOf(cells_[slot], voxels_[slot], voxel_size_);
-  gaussians_[slot].twin = twin;
+void GaussianLevel::update(uint32_t slot, Side side) {
+  const VoxelGaussian before = gaussians_[slot];
+  VoxelGaussian& now = gaussians_[slot];
+  now = gaussianOf(cells_[slot], voxels_[slot], voxel_size_);
+  now.twin = before.twin;
+  if (side == Side::kKeep && before.hasSide()) now.side = before.side;
   cells_[slot].stale = false;
 }
 
@@ -208,7 +210,7 @@ void GaussianLevel::updateSelected() {
   const auto keep = std::remove_if(stale_.begin(), stale_.end(), [this](uint32_t slot) {
     if (!cells_[slot].stale) return true;
     if (!cells_[slot].selected) return false;
-    update(slot);
+    update(slot, Side::kRefresh);
     return true;
   });
   stale_.erase(keep, stale_.end());
@@ -216,7 +218,7 @@ void GaussianLevel::updateSelected() {
 
 void GaussianLevel::updateAll() {
   for (const uint32_t slot : stale_) {
-    if (cells_[slot].stale) update(slot);
+    if (cells_[slot].stale) update(slot, Side::kKeep);
   }
   stale_.clear();
 }
@@ -230,7 +232,7 @@ void GaussianLevel::select(uint32_t slot, bool selected) {
   selected ? ++selected_count_ : --selected_count_;
   for (uint32_t side = slot; side != VoxelGaussian::kNoTwin; side = gaussians_[side].twin) {
     cells_[side].selected = selected;
-    if (selected && cells_[side].stale) update(side);
+    if (selected) update(side, Side::kRefresh);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,32 +23,44 @@ using Eigen::Vector3d;
 
 OccupiedVoxelMap mapOf(const std::vector<Centroids>& scans) {
   OccupiedVoxelMap map(kScanMapVoxel, 3.2, MapConfig{}, EdgeConfig{}, 1);
-  for (const Centroids& scan : scans) map.insert(scan);
+  for (const Centroids& scan : scans) map.insert(scan, farSensor());
   map.label();
   return map;
 }
 
 struct Gaussian {
-  Vector3d mean;
-  Eigen::Matrix3d inverse;      ///< of the covariance
-  Eigen::Matrix3d information;  ///< the same without its smallest eigenvalue
+  Vector3d mean = Vector3d::Zero();
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  ///< of the covariance
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Zero();       ///< all of it across the surface, a quarter along it
+  Vector3d side = Vector3d::Zero();  ///< seen from behind where its product with a view is below -1
 };
 
-/// Design: C = (S + 2 (.3 r)^2 I) / (n + 2) + (2 cm)^2 I.
-Gaussian gaussianOf(const Centroids& centroids, double size) {
-  const auto n = static_cast<double>(centroids.size());
+/// C = (S + 2 (.3 r)^2 I) / (n + 2) + (2 cm)^2 I with the eigenvalues s <= m <= l and n that of s:
+/// W = 0.1 (C^-1 - I/l) + 0.9 (1/s - 1/m) n n^T. Flat (s < a tenth of the trace): seen from behind
+/// from a cosine of -0.02 to the normal on; else from one of -0.3 to the mean view.
+Gaussian gaussianOf(const Centroids& centroids, const Centroids& views, double size) {
+  const auto count = static_cast<double>(centroids.size());
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  Gaussian gaussian{Vector3d::Zero(), {}, {}};
-  for (const Vector3d& centroid : centroids) gaussian.mean += centroid / n;
+  Gaussian gaussian;
+  for (const Vector3d& centroid : centroids) gaussian.mean += centroid / count;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Vector3d& centroid : centroids) {
     scatter += (centroid - gaussian.mean) * (centroid - gaussian.mean).transpose();
   }
   const Eigen::Matrix3d covariance =
-      (scatter + 2 * std::pow(0.3 * size, 2) * identity) / (n + 2) + 0.02 * 0.02 * identity;
+      (scatter + 2 * std::pow(0.3 * size, 2) * identity) / (count + 2) + 0.02 * 0.02 * identity;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  const Vector3d& values = solver.eigenvalues();
+  const Vector3d normal = solver.eigenvectors().col(0);
   gaussian.inverse = covariance.inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(gaussian.inverse);
-  gaussian.information = gaussian.inverse - solver.eigenvalues()[0] * identity;
+  gaussian.information = (gaussian.inverse - identity / values[2]) / 10 +
+                         0.9 * (1 / values[0] - 1 / values[1]) * normal * normal.transpose();
+  Vector3d view = Vector3d::Zero();
+  for (const Vector3d& v : views) view += v;
+  const bool flat = values[0] < 0.1 * values.sum();
+  gaussian.side = flat ? Vector3d(normal * (normal.dot(view) < 0 ? -1 : 1) / 0.02)
+                       : Vector3d(view.normalized() / 0.3);
   return gaussian;
 }
 
@@ -61,24 +74,31 @@ Eigen::Matrix3d symmetric(const std::array<float, 6>& m) {
 struct GaussianErrors {
   double mean = 0.0;         ///< [m]
   double information = 0.0;  ///< of the largest element of C^-1
+  double lone = 0.0;         ///< the same where all directions are alike: ill-conditioned
   int compared = 0;
+
+  void add(const VoxelGaussian& actual, const Gaussian& expected) {
+    const Eigen::Matrix3d difference = symmetric(actual.information) - expected.information;
+    mean = std::max(mean, (actual.mean.cast<double>() - expected.mean).norm());
+    const double largest = expected.inverse.cwiseAbs().maxCoeff();
+    const bool alike = expected.information.cwiseAbs().maxCoeff() < 1e-3 * largest;
+    double& worst = alike ? lone : information;
+    worst = std::max(worst, difference.cwiseAbs().maxCoeff() / largest);
+    ++compared;
+  }
 };
 
+/// Of a map that has seen no surface from behind.
 GaussianErrors errorsOf(const OccupiedVoxelMap& map, const std::vector<Centroids>& scans,
                         bool all) {
   GaussianErrors errors;
   for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+    const GaussianLevel& gaussians = map.gaussians(level);
     for (const auto& [v, cell] : accumulate(scans, level)) {
-      const VoxelGaussian* actual = map.gaussians(level).find(v, all);
-      if (actual == nullptr) continue;
-      const Gaussian expected = gaussianOf(cell.centroids, map.voxelSize(level));
-      const double mean = (actual->mean.cast<double>() - expected.mean).norm();
-      const double information =
-          (symmetric(actual->information) - expected.information).cwiseAbs().maxCoeff() /
-          expected.inverse.cwiseAbs().maxCoeff();
-      errors.mean = std::max(errors.mean, mean);
-      errors.information = std::max(errors.information, information);
-      ++errors.compared;
+      const uint32_t slot = gaussians.slotOf(v);
+      if (!all && !gaussians.cell(slot).selected) continue;
+      EXPECT_EQ(VoxelGaussian::kNoTwin, gaussians.gaussian(slot).twin);
+      errors.add(gaussians.gaussian(slot), gaussianOf(cell.centroids, {}, map.voxelSize(level)));
     }
   }
   return errors;
@@ -90,6 +110,7 @@ void expectSmall(const GaussianErrors& errors) {
                                   std::to_string(errors.information * 1e6) + "e-6");
   EXPECT_LT(errors.mean, 1e-6);
   EXPECT_LT(errors.information, 1e-4);
+  EXPECT_LT(errors.lone, 1e-2);
 }
 
 TEST(Gaussians, OfAllVoxelsAreThoseOfAllCentroids) {
@@ -108,7 +129,7 @@ TEST(Gaussians, OfSelectedVoxelsAreUpToDateAfterEveryScan) {
   config.label_every = 2;
   OccupiedVoxelMap map(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
   for (size_t scan = 0; scan < scans.size(); ++scan) {
-    map.insert(scans[scan]);
+    map.insert(scans[scan], farSensor());
     const auto so_far = static_cast<std::ptrdiff_t>(scan) + 1;
     const GaussianErrors errors = errorsOf(map, {scans.begin(), scans.begin() + so_far}, false);
     EXPECT_EQ(scan > 0, errors.compared > 100);
@@ -116,42 +137,153 @@ TEST(Gaussians, OfSelectedVoxelsAreUpToDateAfterEveryScan) {
   }
 }
 
+/// The two sides of a voxel, point by point, by the definition.
+struct TwoSidedVoxel {
+  struct Side {
+    Centroids centroids;
+    Centroids views;
+    Gaussian gaussian;
+    void update() { gaussian = gaussianOf(centroids, views, kSize); }
+  };
+  static constexpr double kSize = 0.4;  // [m]
+  std::vector<Side> sides;
+
+  /// Between two updates a view is compared with the first side as it was at the last.
+  void add(const Vector3d& centroid, const Vector3d& to_sensor) {
+    const bool behind = !sides.empty() && !sides[0].gaussian.side.isZero() &&
+                        sides[0].gaussian.side.dot(to_sensor) < -1;
+    if (sides.size() < (behind ? 2U : 1U)) sides.emplace_back();
+    Side& side = sides[behind ? 1 : 0];
+    side.centroids.push_back(centroid);
+    side.views.push_back(to_sensor);
+  }
+};
+
+/// A room's walls, seen from anywhere inside and outside: many from both sides.
+struct TwoSidedLevel {
+  GaussianLevel level{TwoSidedVoxel::kSize};
+  std::map<VoxelIndex, TwoSidedVoxel> expected;
+  std::vector<Centroids> scans = randomScans(21, 8);
+
+  TwoSidedLevel() {
+    Random random(5);
+    uint32_t number = 0;
+    for (const Centroids& scan : scans) addScan(scan, random.vectorIn(-5, 5), ++number);
+  }
+
+  void addScan(const Centroids& scan, const Vector3d& sensor, uint32_t number) {
+    for (const Vector3d& centroid : scan) {
+      const VoxelIndex v = voxelAt(centroid, 1.0 / TwoSidedVoxel::kSize);
+      const Eigen::Vector3f to_sensor = (sensor - centroid).normalized().cast<float>();
+      level.add(level.slotFor(v), centroid, to_sensor, number);
+      expected[v].add(centroid, to_sensor.cast<double>());
+    }
+    level.updateAll();
+    for (auto& [v, voxel] : expected) {
+      for (auto& side : voxel.sides) side.update();
+    }
+  }
+};
+
+TEST(Sides, AreThoseOfTheDefinition) {
+  const TwoSidedLevel both;
+  GaussianErrors errors;
+  double side_error = 0.0;
+  int twins = 0;
+  for (const auto& [v, voxel] : both.expected) {
+    const VoxelGaussian* actual = &both.level.gaussian(both.level.slotOf(v));
+    ASSERT_EQ(voxel.sides.size() == 2, actual->twin != VoxelGaussian::kNoTwin);
+    for (const auto& side : voxel.sides) {
+      errors.add(*actual, side.gaussian);
+      const double error = (actual->side.cast<double>() - side.gaussian.side).norm();
+      side_error = std::max(side_error, error / side.gaussian.side.norm());
+      if (voxel.sides.size() == 2)
+        actual = &both.level.gaussian(both.level.gaussian(both.level.slotOf(v)).twin);
+    }
+    twins += voxel.sides.size() == 2 ? 1 : 0;
+  }
+  ::testing::Test::RecordProperty("voxels", static_cast<int>(both.expected.size()));
+  ::testing::Test::RecordProperty("twins", twins);
+  ::testing::Test::RecordProperty("side_error", std::to_string(side_error * 1e6) + "e-6");
+  EXPECT_GT(twins, 50);
+  EXPECT_GT(static_cast<int>(both.expected.size()) - twins, 50);
+  EXPECT_LT(side_error, 1e-2);
+  expectSmall(errors);
+}
+
 double squaredDistance(const VoxelGaussian& gaussian, const Eigen::Vector3f& point) {
   const Vector3d e = (point - gaussian.mean).cast<double>();
   return e.dot(symmetric(gaussian.information) * e);
 }
 
-void expectNearest(const GaussianLevel& level, const Eigen::Vector3f& point, bool all) {
-  const VoxelIndex centre = voxelAt(point, 1.0 / level.voxelSize());
-  double least = std::numeric_limits<double>::infinity();
-  for (const VoxelIndex& offset : std::vector<VoxelIndex>{
-           {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
-    const VoxelGaussian* candidate = level.find(centre + offset, all);
-    if (candidate != nullptr) least = std::min(least, squaredDistance(*candidate, point));
-  }
-  float distance = 0.0F;
-  const VoxelGaussian* nearest = level.nearest(point, all, distance);
-  ASSERT_EQ(std::isinf(least), nearest == nullptr);
-  if (nearest == nullptr) return;
-  const double tolerance = 1e-4 * (1.0 + least);
-  ASSERT_NEAR(least, static_cast<double>(distance), tolerance);
-  ASSERT_NEAR(least, squaredDistance(*nearest, point), tolerance);
+/// The surface of a voxel that faces the sensor, if there is one.
+const VoxelGaussian* facing(const GaussianLevel& level, const VoxelIndex& v,
+                            const Eigen::Vector3f& to_sensor, bool all) {
+  const uint32_t slot = level.slotOf(v);
+  if (slot == SlotGrid<8>::kNone || !(all || level.cell(slot).selected)) return nullptr;
+  const VoxelGaussian& first = level.gaussian(slot);
+  if (!(first.side.dot(to_sensor) < -1)) return &first;
+  return first.twin == VoxelGaussian::kNoTwin ? nullptr : &level.gaussian(first.twin);
 }
 
-TEST(Gaussians, NearestIsThatOfTheSevenVoxels) {
-  const auto scans = randomScans(10, 3);
-  OccupiedVoxelMap map = mapOf(scans);
-  map.prepareAll();
+/// Returns the number of candidates.
+int expectNearest(const GaussianLevel& level, const Eigen::Vector3f& point,
+                  const Eigen::Vector3f& to_sensor, bool all) {
+  const VoxelIndex centre = voxelAt(point, 1.0 / level.voxelSize());
+  double least = std::numeric_limits<double>::infinity();
+  int candidates = 0;
+  for (const VoxelIndex& offset : std::vector<VoxelIndex>{
+           {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+    const VoxelGaussian* candidate = facing(level, centre + offset, to_sensor, all);
+    if (candidate == nullptr) continue;
+    least = std::min(least, squaredDistance(*candidate, point));
+    ++candidates;
+  }
+  float distance = 0.0F;
+  const VoxelGaussian* nearest = level.nearest(point, to_sensor, all, distance);
+  EXPECT_EQ(std::isinf(least), nearest == nullptr);
+  if (nearest == nullptr || candidates == 0) return 0;
+  const double tolerance = 1e-4 * (1.0 + least);
+  EXPECT_NEAR(least, static_cast<double>(distance), tolerance);
+  EXPECT_NEAR(least, squaredDistance(*nearest, point), tolerance);
+  return candidates;
+}
+
+TEST(Nearest, IsThatOfTheSevenVoxelsThatFaceTheSensor) {
+  TwoSidedLevel both;
   Random random(11);
-  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
-    for (const Vector3d& centroid : scans[0]) {
-      if (!random.chance(0.2)) continue;
-      const Vector3d near = centroid + random.vectorIn(-0.3, 0.3);
-      for (const bool all : {false, true}) {
-        expectNearest(map.gaussians(level), near.cast<float>(), all);
-      }
+  for (const auto& entry : both.expected) {
+    if (random.chance(0.3)) both.level.select(both.level.slotOf(entry.first), true);
+  }
+  std::array<int, 2> candidates{};  // by all
+  for (const Vector3d& centroid : both.scans[0]) {
+    if (!random.chance(0.3)) continue;
+    const Vector3d near = centroid + random.vectorIn(-0.3, 0.3);
+    const Eigen::Vector3f to_sensor = random.normalVector().normalized().cast<float>();
+    for (const bool all : {false, true}) {
+      candidates[all ? 1 : 0] += expectNearest(both.level, near.cast<float>(), to_sensor, all);
     }
   }
+  EXPECT_GT(candidates[0], 1000);
+  EXPECT_GT(candidates[1], 2 * candidates[0]);
+}
+
+TEST(Selection, CountsVoxelsAndTheirGaussians) {
+  TwoSidedLevel both;
+  size_t voxels = 0;
+  size_t gaussians = 0;
+  for (const auto& [v, voxel] : both.expected) {
+    if (voxelHash(v) % 3 != 0) continue;
+    both.level.select(both.level.slotOf(v), true);
+    both.level.select(both.level.slotOf(v), true);
+    ++voxels;
+    gaussians += voxel.sides.size();
+  }
+  EXPECT_EQ(voxels, both.level.selectedCount());
+  EXPECT_EQ(gaussians, both.level.selectedGaussians());
+  for (const auto& entry : both.expected) both.level.select(both.level.slotOf(entry.first), false);
+  EXPECT_EQ(0U, both.level.selectedCount());
+  EXPECT_EQ(0U, both.level.selectedGaussians());
 }
 
 }  // namespace

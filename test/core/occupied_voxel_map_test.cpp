@@ -63,7 +63,8 @@ Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges,
 Voxels selectedIn(const OccupiedVoxelMap& map, int level, const AccumulatedCells& cells) {
   Voxels selected;
   for (const auto& entry : cells) {
-    if (map.gaussians(level).find(entry.first, false) != nullptr) selected.push_back(entry.first);
+    const GaussianLevel& gaussians = map.gaussians(level);
+    if (gaussians.cell(gaussians.slotOf(entry.first)).selected) selected.push_back(entry.first);
   }
   return selected;
 }
@@ -85,7 +86,7 @@ void expectMapOf(const std::vector<Centroids>& scans, const OccupiedVoxelMap& ma
 OccupiedVoxelMap mapOf(const std::vector<Centroids>& scans, const MapConfig& config,
                        int threads = 1) {
   OccupiedVoxelMap map = makeMap(config, threads);
-  for (const Centroids& scan : scans) map.insert(scan);
+  for (const Centroids& scan : scans) map.insert(scan, farSensor());
   map.label();
   return map;
 }
@@ -105,7 +106,7 @@ TEST(Labels, AreThoseOfTheWholeMapAfterEveryScan) {
   Voxels before;
   size_t lost = 0;
   for (size_t scan = 0; scan < scans.size(); ++scan) {
-    map.insert(scans[scan]);
+    map.insert(scans[scan], farSensor());
     expectMapOf({scans.begin(), scans.begin() + static_cast<long>(scan) + 1}, map, config);
     lost += difference(before, voxelsOf(map.edgeVoxels())).size();
     before = voxelsOf(map.edgeVoxels());
@@ -119,9 +120,9 @@ TEST(Labels, AreThoseOfTheWholeMapAfterEveryScan) {
 TEST(Labels, ComeEveryFewScans) {
   const auto scans = randomScans(3, 4);
   OccupiedVoxelMap map = makeMap(withLabelEvery(4));
-  for (int scan = 0; scan < 3; ++scan) map.insert(scans[static_cast<size_t>(scan)]);
+  for (int scan = 0; scan < 3; ++scan) map.insert(scans[static_cast<size_t>(scan)], farSensor());
   EXPECT_EQ(0U, map.edgeVoxels().voxelCount());
-  map.insert(scans[3]);
+  map.insert(scans[3], farSensor());
   EXPECT_GT(map.edgeVoxels().voxelCount(), 100U);
 }
 
@@ -142,9 +143,9 @@ TEST(Labels, FollowSingleVoxelsOverTheirWholeReach) {
   MapConfig config = withLabelEvery(1);
   config.min_hits = 1;
   OccupiedVoxelMap map = makeMap(config);
-  map.insert(centresOf(randomCloud(random, 14, 0.1)));  // across eight blocks
+  map.insert(centresOf(randomCloud(random, 14, 0.1)), farSensor());  // across eight blocks
   for (int i = 0; i < 600; ++i) {
-    map.insert(centresOf({random.voxelIn(-7, 6)}));
+    map.insert(centresOf({random.voxelIn(-7, 6)}), farSensor());
     const Voxels hit = voxelsOf(map.hitVoxels());
     ASSERT_TRUE(sameVoxels(labelledAtOnce(hit), voxelsOf(map.edgeVoxels())));
   }
@@ -170,11 +171,11 @@ TEST(Hits, CountScansNotCentroids) {
   OccupiedVoxelMap map = makeMap({});
   const Centroids three = {{1.01, 0.01, 0.01}, {1.02, 0.01, 0.01}, {1.03, 0.01, 0.01}};
   const VoxelIndex v{10, 0, 0};
-  map.insert(three);
+  map.insert(three, farSensor());
   EXPECT_FALSE(map.hitVoxels().test(v));
-  map.insert({});
+  map.insert({}, farSensor());
   EXPECT_FALSE(map.hitVoxels().test(v));
-  map.insert({three[0]});
+  map.insert({three[0]}, farSensor());
   EXPECT_TRUE(map.hitVoxels().test(v));
   EXPECT_EQ(3U, map.scans());
   const GaussianLevel& level = map.gaussians(1);
@@ -208,7 +209,7 @@ TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
   const auto scans = randomScans(12, 4);
   const MapConfig config = withRepresentation(Representation::kAll);
   OccupiedVoxelMap map = makeMap(config);
-  for (const Centroids& scan : scans) map.insert(scan);
+  for (const Centroids& scan : scans) map.insert(scan, farSensor());
   for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
     const AccumulatedCells cells = accumulate(scans, level);
     EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), selectedIn(map, level, cells)));
@@ -252,7 +253,7 @@ TEST(Clear, ReturnsToANewMap) {
   const auto first = randomScans(15, 3);
   const auto second = randomScans(16, 5);
   OccupiedVoxelMap map = mapOf(first, {});
-  map.insert({{1e9, 0, 0}});
+  map.insert({{1e9, 0, 0}}, farSensor());
   map.clear();
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(0U, map.ignoredCentroids());
@@ -260,7 +261,7 @@ TEST(Clear, ReturnsToANewMap) {
   EXPECT_EQ(makeMap({}).bytes(), map.bytes());
   EXPECT_EQ(makeMap({}).levels(), map.levels());
 
-  for (const Centroids& scan : second) map.insert(scan);
+  for (const Centroids& scan : second) map.insert(scan, farSensor());
   map.label();
   expectMapOf(second, map, {});
   EXPECT_EQ(mapOf(second, {}).packedBytes(), map.packedBytes());
@@ -279,8 +280,8 @@ TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
     }
   }
   OccupiedVoxelMap map = makeMap(withLabelEvery(1));
-  map.insert(bad);
-  map.insert(bad);
+  map.insert(bad, farSensor());
+  map.insert(bad, farSensor());
   EXPECT_EQ(2 * bad.size(), map.ignoredCentroids());
   EXPECT_EQ(0U, map.hitVoxels().voxelCount());
   EXPECT_EQ(0U, map.gaussians(1).size());
@@ -289,7 +290,8 @@ TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
 TEST(OutOfRange, VoxelsNearTheLimitAreKept) {
   const double near = (kIndexLimit - 2) * kSize;
   OccupiedVoxelMap map = makeMap(withLabelEvery(1));
-  for (int scan = 0; scan < 2; ++scan) map.insert({{near, near, near}, {-near, -near, -near}});
+  for (int scan = 0; scan < 2; ++scan)
+    map.insert({{near, near, near}, {-near, -near, -near}}, farSensor());
   EXPECT_EQ(0U, map.ignoredCentroids());
   EXPECT_EQ(2U, map.hitVoxels().voxelCount());
 }

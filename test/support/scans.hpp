@@ -21,6 +21,9 @@ using Centroids = std::vector<Eigen::Vector3d>;
 std::vector<Centroids> randomScans(uint32_t seed, int count,
                                    const Eigen::Vector3d& room = {50, 40, 25});
 
+/// A sensor so far off that no surface of the scans is seen from behind [m].
+inline Eigen::Vector3d farSensor() { return {600, 500, 800}; }
+
 /// What all scans together left in a voxel.
 struct AccumulatedCell {
   Centroids centroids;
