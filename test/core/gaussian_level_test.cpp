@@ -178,8 +178,9 @@ struct TwoSidedLevel {
       level.add(level.slotFor(v), centroid, to_sensor, number);
       expected[v].add(centroid, to_sensor.cast<double>());
     }
-    level.updateAll();
     for (auto& [v, voxel] : expected) {
+      level.select(level.slotOf(v), true);  // which updates all of it
+      level.select(level.slotOf(v), false);
       for (auto& side : voxel.sides) side.update();
     }
   }

@@ -73,8 +73,8 @@ TEST_P(Building, TwelveSecondsAreMapped) {
 INSTANTIATE_TEST_SUITE_P(Representations, Building,
                          ::testing::Values(Representation::kEdges, Representation::kAll));
 
-TEST(Corridor, AFewSecondsAreMapped) {
-  const Walk walk = simulateWalk(sim::WorldName::Corridor, "16", 10, 40);
+TEST(Corridor, FifteenSecondsAreMapped) {
+  const Walk walk = simulateWalk(sim::WorldName::Corridor, "16", 0, 150);
   const MappedRun run = runOf(walk.sweeps, walk.sweeps.size(), Config{});
   EXPECT_EQ(0U, run.lost);
   const TrajectoryErrors errors = evaluate(run.trajectory, walk.truth);

@@ -58,8 +58,8 @@ TEST(MapExport, centroidsInTheOrderOfVoxels) {
   OccupiedVoxelMap map(0.1, 3.2, MapConfig(), EdgeConfig(), 1);
   const std::vector<Eigen::Vector3d> centroids = {
       {0.05, 0.05, 0.35}, {0.95, 0.05, 0.05}, {0.07, 0.05, 0.05}, {0.05, 0.35, 0.05}};
-  map.insert(centroids);
-  map.insert(centroids);
+  map.insert(centroids, Eigen::Vector3d(0, 0, 5));
+  map.insert(centroids, Eigen::Vector3d(0, 0, 5));
   const Points points = centroidsOf(map, map.hitVoxels());
   ASSERT_EQ(points.size(), 4U);
   for (size_t i = 0; i < 4; ++i) {
