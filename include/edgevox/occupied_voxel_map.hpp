@@ -179,7 +179,6 @@ class OccupiedVoxelMap {
 
   double voxel_size_;
   MapConfig config_;
-  EdgeConfig edge_config_;
   EdgeLabeller<16> labeller_;
   uint32_t scans_ = 0;
   size_t ignored_ = 0;

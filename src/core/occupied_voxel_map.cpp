@@ -40,7 +40,6 @@ OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, con
                                    const EdgeConfig& edges, int threads)
     : voxel_size_(voxel_size),
       config_(map),
-      edge_config_(edges),
       labeller_(edges, edges.map_support, threads),
       occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
