@@ -28,7 +28,6 @@ struct VoxelGaussian {
   uint32_t twin = kNoTwin;  ///< the surface in the same voxel seen from the other side
 
   static constexpr uint32_t kNoTwin = 0xffffffff;
-  bool hasSide() const { return side.squaredNorm() > 0; }
   bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
 };
 
@@ -95,7 +94,8 @@ class GaussianLevel {
   uint32_t newCell(const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
   enum class Side { kKeep, kRefresh };
-  /// A side that is kept but not known yet is set.
+  /// What a look at unselected voxels computes must not change where later centroids go: it keeps
+  /// the side.
   void update(uint32_t slot, Side side);
 
   double voxel_size_;

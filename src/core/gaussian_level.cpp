@@ -202,7 +202,7 @@ void GaussianLevel::update(uint32_t slot, Side side) {
   VoxelGaussian& now = gaussians_[slot];
   now = gaussianOf(cells_[slot], voxels_[slot], voxel_size_);
   now.twin = before.twin;
-  if (side == Side::kKeep && before.hasSide()) now.side = before.side;
+  if (side == Side::kKeep) now.side = before.side;
   cells_[slot].stale = false;
 }
 
