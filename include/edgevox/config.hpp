@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-#include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "edgevox/parameter.hpp"
 
 namespace edgevox {
 
@@ -60,10 +59,15 @@ struct MatcherConfig {
   double relative_hit_ratio = 0.75;  ///< of an accepted match, of the running median
 };
 
+/// What to do with the map when the clock has jumped back.
+enum class AfterClockJump { kKeepMap, kClearMap };
+
 struct MapperConfig {
   double fallback_hit_ratio = 0.6;  ///< of its running median: match all voxels below it
   double fallback_sigma = 1.6;      ///< worst deviation of the pose / its running median
   int fallback_matches = 100;       ///< match all voxels below it
+  double clock_jump = 2.0;          ///< a stamp so much before the last one is no late scan [s]
+  AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;
 };
 
 struct Config {
@@ -76,38 +80,13 @@ struct Config {
   MapperConfig mapper;
 };
 
-/// A parameter that is one of a few words.
-struct Choice {
-  std::vector<std::string> words;
-  std::function<std::string()> get;
-  std::function<bool(const std::string&)> set;  ///< false if it is none of the words
-};
-
-/// One parameter of a Config, by reference. The only list of names: files, ROS parameters and
-/// documentation are made from it.
-struct Parameter {
-  std::string name;  ///< "group/name" or "name"
-  std::variant<double*, int*, Choice> value;
-  double min = 0.0;  ///< of a number
-  double max = 0.0;
-  std::string unit;
-  std::string meaning;
-};
-
-/// Valid as long as `config`.
+/// The parameters of the algorithms, valid as long as `config`.
 std::vector<Parameter> parametersOf(Config& config);
-
-struct ConfigError : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
 
 /// Throws ConfigError that names the parameter, its value and its range.
 void validate(const Config& config);
 
-/// Throws ConfigError if the text is no value of the parameter's type and range.
-void assign(const Parameter& parameter, const std::string& text);
-
-/// The shortest text that assign() turns back into the same value.
-std::string valueText(const Parameter& parameter);
+/// All parameters but `threads`, on which no result depends, in YAML, groups nested.
+std::string yamlText(const Config& config);
 
 }  // namespace edgevox

@@ -19,7 +19,7 @@ enum class ScanStatus {
   kTracked,   ///< aligned to the map's selected voxels
   kFallback,  ///< aligned to all occupied voxels
   kLost,      ///< no match was good enough; the map and the pose are as before
-  kStale,     ///< not later than the scan before; not used
+  kStale,     ///< not later than the last located scan; not used
   kTooFew,    ///< too few occupied voxels; not used
 };
 const char* name(ScanStatus status);
@@ -42,12 +42,22 @@ struct ScanResult {
   double required_hit_ratio = 0.0;
   int matches = 0;
   int restarts = 0;
+  bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
   MapperTimes times;
 
   bool located() const {
     return status == ScanStatus::kFirst || status == ScanStatus::kTracked ||
            status == ScanStatus::kFallback;
   }
+};
+
+/// What is known of a scan besides its voxels.
+struct ScanPrior {
+  /// At the stamp, in any smooth frame, for the prediction; without it the velocity is taken as
+  /// constant.
+  std::optional<Pose> T_odom_sensor;
+  /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame.
+  Pose T_map_first = Pose::Identity();
 };
 
 /// Median of the last values.
@@ -71,10 +81,7 @@ class Mapper {
  public:
   explicit Mapper(const Config& config, Clock clock = Clock::kProcessCpu);
 
-  /// `T_odom_sensor`: pose at the stamp in any smooth frame, for the prediction; without it the
-  /// velocity is taken as constant.
-  ScanResult process(const VoxelScan& scan,
-                     const std::optional<Pose>& T_odom_sensor = std::nullopt);
+  ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
 
   const OccupiedVoxelMap& map() const { return map_; }
   /// Brings the labels up to date, for output.
@@ -90,13 +97,14 @@ class Mapper {
     std::optional<Pose> T_odom_sensor;
   };
 
+  bool isInTime(double stamp, ScanResult& result);
+  void forgetMotion();
   void align(const VoxelScan& scan, const SweepTime& sweep, Located& now, ScanResult& result);
   void advance(const VoxelScan& scan, const Located& now);
   Pose predict(const Located& now) const;
   Twist twistTo(double time, const Pose& T_map_sensor) const;
   Twist twistInSweep(const Twist& twist) const;
-  MatchResult locate(const ScanSample& sample, const Pose& guess, double since_last,
-                     ScanResult& result);
+  MatchResult locate(const ScanSample& sample, const Pose& guess, double time, ScanResult& result);
   bool needsFallback(const MatchResult& match, double sigma) const;
   double requiredHitRatio() const;
   double trustedHitRatio() const;
@@ -106,12 +114,13 @@ class Mapper {
   Clock clock_;
   Matcher matcher_;
   OccupiedVoxelMap map_;
-  std::optional<double> last_stamp_;      // of the last scan, located or not [s]
+  std::optional<double> last_stamp_;      // of the last located scan [s]
   Pose T_map_sensor_ = Pose::Identity();  // at the stamp of the last located scan
-  std::optional<Located> last_;
-  Twist twist_;           // from the last but one located sweep to the last
-  Twist twist_in_sweep_;  // in the last one
-  int lost_in_a_row_ = 0;
+  std::optional<double> jumped_to_;       // stamp of the last scan, if it was far back [s]
+  std::optional<Located> last_;           // none if the motion is not known
+  Twist twist_;                           // from the last but one located sweep to the last
+  Twist twist_in_sweep_;                  // in the last one
+  uint64_t lost_in_a_row_ = 0;
   RunningMedian hit_ratios_;
   RunningMedian sigmas_;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "edgevox/config.hpp"
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/mapper.hpp"
@@ -28,8 +26,7 @@ class Pipeline {
   /// Throws ConfigError if the configuration is not valid.
   explicit Pipeline(const Config& config, Clock clock = Clock::kProcessCpu);
 
-  PipelineResult process(const CloudView& cloud,
-                         const std::optional<Pose>& T_odom_sensor = std::nullopt);
+  PipelineResult process(const CloudView& cloud, const ScanPrior& prior = {});
 
   Mapper& mapper() { return mapper_; }
   const OccupiedVoxelMap& map() const { return mapper_.map(); }

@@ -2,10 +2,6 @@
 #include "edgevox/config.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <sstream>
 
 namespace edgevox {
 namespace {
@@ -21,31 +17,6 @@ Choice choiceOf(Enum& value, std::vector<std::string> words) {
             return true;
           }};
 }
-
-std::string rangeText(const Parameter& p) {
-  std::ostringstream out;
-  if (const auto* choice = std::get_if<Choice>(&p.value)) {
-    for (size_t i = 0; i < choice->words.size(); ++i) {
-      out << (i == 0 ? "" : ", ") << choice->words[i];
-    }
-    return "one of " + out.str();
-  }
-  out << "a" << (std::holds_alternative<int*>(p.value) ? " whole" : "") << " number from " << p.min
-      << " to " << p.max << (p.unit.empty() ? "" : " " + p.unit);
-  return out.str();
-}
-
-[[noreturn]] void reject(const Parameter& p, const std::string& text) {
-  throw ConfigError("parameter '" + p.name + "' is '" + text + "'; it must be " + rangeText(p));
-}
-
-bool parse(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
-}
-
-bool inRange(const Parameter& p, double value) { return value >= p.min && value <= p.max; }
 
 }  // namespace
 
@@ -97,50 +68,38 @@ std::vector<Parameter> parametersOf(Config& c) {
        "of the running median; a pose less certain is aligned to all voxels"},
       {"mapper/fallback_matches", &c.mapper.fallback_matches, 0, kMaxCount, "",
        "with fewer matched points a scan is aligned to all voxels"},
+      {"mapper/clock_jump", &c.mapper.clock_jump, 0, 1e6, "s",
+       "a scan older than the last one by more means that the clock has jumped back; by less it is "
+       "late and dropped"},
+      {"mapper/after_clock_jump", choiceOf(c.mapper.after_clock_jump, {"keep_map", "clear_map"}), 0,
+       0, "",
+       "what to do with the map when the clock has jumped back; the velocity is forgotten anyway"},
   };
 }
 
 void validate(const Config& config) {
   Config copy = config;
-  for (const Parameter& p : parametersOf(copy)) {
-    double value = p.min;
-    if (const auto* number = std::get_if<double*>(&p.value)) value = **number;
-    if (const auto* number = std::get_if<int*>(&p.value)) value = **number;
-    if (!inRange(p, value)) reject(p, valueText(p));
-  }
+  for (const Parameter& parameter : parametersOf(copy)) checkRange(parameter);
   if (config.voxelizer.min_range >= config.voxelizer.max_range) {
     throw ConfigError("parameter 'voxelizer/min_range' must be less than 'voxelizer/max_range'");
   }
 }
 
-void assign(const Parameter& p, const std::string& text) {
-  if (const auto* choice = std::get_if<Choice>(&p.value)) {
-    if (!choice->set(text)) reject(p, text);
-    return;
+std::string yamlText(const Config& config) {
+  Config copy = config;
+  std::string text;
+  std::string group;
+  for (const Parameter& parameter : parametersOf(copy)) {
+    if (parameter.name == "threads") continue;  // no result depends on it
+    const size_t slash = parameter.name.find('/');
+    const bool grouped = slash != std::string::npos;
+    const std::string its_group = grouped ? parameter.name.substr(0, slash) : "";
+    if (grouped && its_group != group) text += its_group + ":\n";
+    group = its_group;
+    text += (grouped ? "  " : "") + parameter.name.substr(grouped ? slash + 1 : 0) + ": " +
+            valueText(parameter) + "\n";
   }
-  double value = 0;
-  if (!parse(text, value) || !inRange(p, value)) reject(p, text);
-  if (const auto* number = std::get_if<double*>(&p.value)) {
-    **number = value;
-    return;
-  }
-  if (value != std::floor(value)) reject(p, text);
-  *std::get<int*>(p.value) = static_cast<int>(value);
-}
-
-std::string valueText(const Parameter& p) {
-  if (const auto* choice = std::get_if<Choice>(&p.value)) return choice->get();
-  if (const auto* number = std::get_if<int*>(&p.value)) return std::to_string(**number);
-  const double value = *std::get<double*>(p.value);
-  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::ostringstream out;
-    out.precision(digits);
-    out << value;
-    const bool scientific = out.str().find('e') != std::string::npos;
-    if (scientific && std::abs(value) >= 1.0 && std::abs(value) < 1e7) continue;
-    if (std::strtod(out.str().c_str(), nullptr) == value) return out.str();
-  }
-  return "nan";
+  return text;
 }
 
 }  // namespace edgevox

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -19,6 +20,7 @@ constexpr double kFarthest = 2.0;                      // a match from its predi
 constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
 constexpr double kWidest = 60.0 * M_PI / 180.0;        // [rad]
 constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
+constexpr double kLongestExtrapolation = 2.0;          // of the motion [s]
 constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity to the sweep
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
@@ -75,23 +77,22 @@ Mapper::Mapper(const Config& config, Clock clock)
       map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
            config.threads) {}
 
-ScanResult Mapper::process(const VoxelScan& scan, const std::optional<Pose>& T_odom_sensor) {
+ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   StageTimer timer(clock_);
   ScanResult result;
   result.number = scan.number;
   result.stamp = scan.stamp;
   result.T_map_sensor = T_map_sensor_;
-  if (last_stamp_ && !(scan.stamp > *last_stamp_)) {
+  if (!isInTime(scan.stamp, result)) {
     result.status = ScanStatus::kStale;
     return result;
   }
-  last_stamp_ = scan.stamp;
   if (scan.voxels.size() < kFewestVoxels) {
     result.status = ScanStatus::kTooFew;
     return result;
   }
   const SweepTime sweep = sweepTime(scan);
-  Located now{scan.stamp + sweep.middle(), T_map_sensor_, T_odom_sensor};
+  Located now{scan.stamp + sweep.middle(), prior.T_map_first, prior.T_odom_sensor};
   if (map_.empty()) {
     result.status = ScanStatus::kFirst;
   } else {
@@ -103,10 +104,34 @@ ScanResult Mapper::process(const VoxelScan& scan, const std::optional<Pose>& T_o
     return result;
   }
   lost_in_a_row_ = 0;
+  last_stamp_ = scan.stamp;
   advance(scan, now);
   result.T_map_sensor = T_map_sensor_;
   insert(scan, sweep, result);
   return result;
+}
+
+/// One scan far in the past may have a wrong stamp; a second one after it shows that the clock has
+/// jumped back.
+bool Mapper::isInTime(double stamp, ScanResult& result) {
+  const std::optional<double> suspected = std::exchange(jumped_to_, std::nullopt);
+  if (!last_stamp_ || stamp > *last_stamp_) return true;
+  if (!(stamp < *last_stamp_ - config_.mapper.clock_jump)) return false;
+  if (!suspected || stamp <= *suspected) {
+    jumped_to_ = stamp;
+    return false;
+  }
+  result.clock_jumped = true;
+  config_.mapper.after_clock_jump == AfterClockJump::kClearMap ? reset() : forgetMotion();
+  result.T_map_sensor = T_map_sensor_;
+  return true;
+}
+
+void Mapper::forgetMotion() {
+  last_stamp_.reset();
+  last_.reset();
+  twist_ = {};
+  twist_in_sweep_ = {};
 }
 
 /// Deskews by the predicted motion, matches; once more by the motion that the match has shown.
@@ -115,14 +140,14 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   const auto count = std::max(config_.matcher.search_points, config_.matcher.refine_points);
   const auto positions = sampleVoxels(scan, static_cast<size_t>(count));
   const Pose guess = predict(now);
-  const bool has_odom = now.T_odom_sensor && last_->T_odom_sensor;
+  const bool has_odom = last_ && now.T_odom_sensor && last_->T_odom_sensor;
   Twist twist = has_odom ? twistTo(now.time, guess) : twist_in_sweep_;
   const MatchResult found =
-      locate(deskewed(scan, positions, {sweep, twist}), guess, now.time - last_->time, result);
+      locate(deskewed(scan, positions, {sweep, twist}), guess, now.time, result);
   if (!found.accepted) return;
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
-  twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
+  if (last_) twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
   const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
                                        now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
   now.T_map_sensor = refined.T_map_sensor;
@@ -142,11 +167,13 @@ void Mapper::advance(const VoxelScan& scan, const Located& now) {
 }
 
 Pose Mapper::predict(const Located& now) const {
+  if (!last_) return T_map_sensor_;
   if (now.T_odom_sensor && last_->T_odom_sensor) {
     return last_->T_map_sensor * last_->T_odom_sensor->inverse() * *now.T_odom_sensor;
   }
   if (lost_in_a_row_ > 1) return last_->T_map_sensor;
-  return last_->T_map_sensor * moved(twist_, now.time - last_->time);
+  const double seconds = std::min(now.time - last_->time, kLongestExtrapolation);
+  return last_->T_map_sensor * moved(twist_, seconds);
 }
 
 /// The velocity in the middle of the sweep, from the mean ones before it and before that.
@@ -159,18 +186,19 @@ Twist Mapper::twistTo(double time, const Pose& T_map_sensor) const {
   return twistOf(last_->T_map_sensor.inverse() * T_map_sensor, time - last_->time);
 }
 
-MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double since_last,
+MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double time,
                            ScanResult& result) {
+  const double since_last = last_ ? time - last_->time : 0.0;
   MatchRequest request;
   request.guess = guess;
   request.required_hit_ratio = requiredHitRatio();
   request.trusted_hit_ratio = trustedHitRatio();
-  request.reach = std::min(1.0 + lost_in_a_row_, kLongestReach);
+  request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.far_hit_ratio =
       hit_ratios_.empty() ? request.required_hit_ratio : request.trusted_hit_ratio;
   request.farthest = kFarthest + kFastest * since_last;
   request.widest = kWidest + kFastestTurn * since_last;
-  request.seed = result.number;
+  request.seed = uint64_t{map_.scans()} << 32 | lost_in_a_row_;
   const double range = medianRange(sample, sample.size());
   const bool published = config_.matcher.mode == MatcherMode::kPublished;
 
@@ -229,11 +257,8 @@ void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& r
 
 void Mapper::reset() {
   map_.clear();
-  last_.reset();
-  last_stamp_.reset();
+  forgetMotion();
   T_map_sensor_ = Pose::Identity();
-  twist_ = {};
-  twist_in_sweep_ = {};
   lost_in_a_row_ = 0;
   hit_ratios_ = {};
   sigmas_ = {};

@@ -17,14 +17,14 @@ Pipeline::Pipeline(const Config& config, Clock clock)
       extractor_(config.edges, config.threads),
       mapper_(config, clock) {}
 
-PipelineResult Pipeline::process(const CloudView& cloud, const std::optional<Pose>& T_odom_sensor) {
+PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior) {
   StageTimer timer(clock_);
   PipelineResult result;
   VoxelScan scan = voxelizer_.voxelize(cloud);
   result.voxelize = timer.lap();
   result.edges = extractor_.extract(scan);
   result.extract = timer.lap();
-  result.scan = mapper_.process(scan, T_odom_sensor);
+  result.scan = mapper_.process(scan, prior);
   result.points = scan.points_read;
   result.scan_voxels = scan.voxels.size();
   result.dropped = scan.dropped;

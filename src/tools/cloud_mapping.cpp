@@ -48,7 +48,7 @@ void CloudMapping::process(size_t cloud, const sensor_msgs::PointCloud2& message
   StageTimer timer(Clock::kProcessCpu);
   ScanRecord record;
   record.cloud = cloud;
-  record.result = pipeline_.process(checked.view, T_odom_sensor);
+  record.result = pipeline_.process(checked.view, {T_odom_sensor, Pose::Identity()});
   record.total = timer.lap();
   record.T_map_body = record.result.scan.T_map_sensor * std::get<Pose>(mounting).inverse();
   scans_.push_back(record);

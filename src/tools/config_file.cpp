@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -18,34 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".yaml";
-
-size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string nearestName(const std::vector<Parameter>& parameters, const std::string& name) {
-  const auto distance = [&](const Parameter& p) {
-    const size_t slash = p.name.find('/');
-    const std::string group = p.name.substr(0, slash);
-    const std::string last = p.name.substr(slash + 1);  // the whole name if there is no slash
-    return std::min(
-        {editDistance(p.name, name), editDistance(group, name), editDistance(last, name)});
-  };
-  return std::min_element(
-             parameters.begin(), parameters.end(),
-             [&](const Parameter& a, const Parameter& b) { return distance(a) < distance(b); })
-      ->name;
-}
 
 void applyValue(const std::string& name, const std::string& text, Config& config) {
   const std::vector<Parameter> parameters = parametersOf(config);
@@ -171,23 +142,6 @@ void applySetting(const std::string& setting, Config& config) {
     throw ConfigError("'" + setting + "' is no setting; write name=value");
   }
   applyValue(setting.substr(0, equals), setting.substr(equals + 1), config);
-}
-
-std::string yamlText(const Config& config) {
-  Config copy = config;
-  std::string text;
-  std::string group;
-  for (const Parameter& parameter : parametersOf(copy)) {
-    if (parameter.name == "threads") continue;  // no result depends on it
-    const size_t slash = parameter.name.find('/');
-    const bool grouped = slash != std::string::npos;
-    const std::string its_group = grouped ? parameter.name.substr(0, slash) : "";
-    if (grouped && its_group != group) text += its_group + ":\n";
-    group = its_group;
-    text += (grouped ? "  " : "") + parameter.name.substr(grouped ? slash + 1 : 0) + ": " +
-            valueText(parameter) + "\n";
-  }
-  return text;
 }
 
 }  // namespace edgevox

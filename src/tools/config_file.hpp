@@ -20,7 +20,4 @@ void applyConfigFile(const std::filesystem::path& file, Config& config);
 /// Sets one parameter from "name=value". Throws ConfigError.
 void applySetting(const std::string& setting, Config& config);
 
-/// All parameters but `threads`, on which no result depends, as applyYaml() reads them.
-std::string yamlText(const Config& config);
-
 }  // namespace edgevox

@@ -163,12 +163,12 @@ ScanResult afterAGap(size_t next, bool with_odometry) {
   Mapper mapper{Config{}};
   ScanResult result;
   for (const size_t i : std::vector<size_t>{0, 1, 2, next}) {
-    std::optional<Pose> T_odom_sensor;
-    if (with_odometry) T_odom_sensor = T_odom_map * walk().truth[i].pose;
+    ScanPrior prior;
+    if (with_odometry) prior.T_odom_sensor = T_odom_map * walk().truth[i].pose;
     VoxelScan scan = scans()[i];
     if (i == next) scan.stamp = scans()[2].stamp + 0.1;  // too soon to have walked there
     for (ScanVoxel& voxel : scan.voxels) voxel.time_offset = 0.0F;
-    result = mapper.process(scan, T_odom_sensor);
+    result = mapper.process(scan, prior);
   }
   return result;
 }
@@ -181,6 +181,96 @@ TEST(Odometry, BridgesWhatAConstantVelocityCannot) {
     EXPECT_TRUE(with.located()) << next;
     EXPECT_LT(differenceOf(truth, with.T_map_sensor).metres, 0.06) << next;
     EXPECT_EQ(ScanStatus::kLost, afterAGap(next, false).status) << next;
+  }
+}
+
+/// Scan i, `seconds` later.
+VoxelScan shifted(size_t i, double seconds) {
+  VoxelScan scan = scans()[i];
+  scan.stamp += seconds;
+  return scan;
+}
+
+TEST(Clock, OneScanFromLongAgoIsStaleAndChangesNothing) {
+  Mapper mapper = mapperAfter(20);
+  const MapState before(mapper);
+  EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(20, -100)).status);
+  EXPECT_TRUE(before == MapState(mapper));
+  Mapper other = mapperAfter(20);
+  EXPECT_TRUE(
+      sameBits(other.process(scans()[20]).T_map_sensor, mapper.process(scans()[20]).T_map_sensor));
+  // Nor do several of them that do not follow one another.
+  for (const double seconds : {-50.0, -50.0, -60.0}) {
+    EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(21, seconds)).status);
+  }
+}
+
+TEST(Clock, AfterAJumpBackTheMapIsKept) {
+  Mapper mapper = mapperAfter(20);
+  const uint32_t scans_before = mapper.map().scans();
+  EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(20, -100)).status);
+  for (size_t i = 21; i < 26; ++i) {
+    const ScanResult result = mapper.process(shifted(i, -100));
+    EXPECT_TRUE(result.located()) << i;
+    EXPECT_EQ(i == 21, result.clock_jumped);
+    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+  }
+  EXPECT_EQ(scans_before + 5, mapper.map().scans());
+}
+
+TEST(Clock, AfterAJumpBackTheMapIsClearedIfConfigured) {
+  Config config;
+  config.mapper.after_clock_jump = AfterClockJump::kClearMap;
+  Mapper mapper{config};
+  processAll(mapper, 20);
+  EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(0, -100)).status);
+  EXPECT_EQ(20U, mapper.map().scans());
+  const ScanResult first = mapper.process(shifted(1, -100));
+  EXPECT_EQ(ScanStatus::kFirst, first.status);
+  EXPECT_TRUE(first.clock_jumped);
+  EXPECT_EQ(1U, mapper.map().scans());
+}
+
+TEST(Clock, AScanFromTheFutureDoesNotStopTheMapping) {
+  Mapper mapper = mapperAfter(20);
+  mapper.process(shifted(20, 1000));
+  EXPECT_EQ(ScanStatus::kStale, mapper.process(scans()[21]).status);
+  for (size_t i = 22; i < 25; ++i) {
+    const ScanResult result = mapper.process(scans()[i]);
+    EXPECT_TRUE(result.located()) << i;
+    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+  }
+}
+
+TEST(Clock, ALostScanWithAWrongStampDoesNotMakeTheNextOnesLate) {
+  Mapper mapper = mapperAfter(20);
+  EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(1e6)).status);
+  EXPECT_TRUE(mapper.process(scans()[20]).located());
+}
+
+TEST(MapFrame, IsWhereTheFirstScanIsPut) {
+  Pose T_map_first(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()));
+  T_map_first.translation() = Eigen::Vector3d(3, -4, 1.4);
+  Mapper mapper{Config{}};
+  ScanPrior prior;
+  prior.T_map_first = T_map_first;
+  EXPECT_TRUE(sameBits(T_map_first, mapper.process(scans()[0], prior).T_map_sensor));
+  prior.T_map_first = Pose::Identity();  // has no meaning any more
+  for (size_t i = 1; i < 10; ++i) {
+    const ScanResult result = mapper.process(scans()[i], prior);
+    ASSERT_TRUE(result.located());
+    EXPECT_LT(differenceOf(T_map_first * walk().truth[i].pose, result.T_map_sensor).metres, 0.03);
+  }
+}
+
+TEST(Trajectory, DoesNotDependOnTheScansNumbers) {
+  Mapper mapper = mapperAfter(20);
+  Mapper other = mapperAfter(20);
+  for (const size_t i : {24U, 25U}) {
+    VoxelScan scan = scans()[i];
+    scan.number += 1000;
+    EXPECT_TRUE(
+        sameBits(other.process(scans()[i]).T_map_sensor, mapper.process(scan).T_map_sensor));
   }
 }
 
