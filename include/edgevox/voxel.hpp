@@ -94,6 +94,13 @@ struct DroppedPoints {
   uint64_t bad_time = 0;  ///< the point is used with the time of the point before it
 
   uint64_t total() const { return not_finite + too_near + too_far; }
+  DroppedPoints& operator+=(const DroppedPoints& other) {
+    not_finite += other.not_finite;
+    too_near += other.too_near;
+    too_far += other.too_far;
+    bad_time += other.bad_time;
+    return *this;
+  }
 };
 
 /// One cloud as occupied voxels, block by block.

@@ -6,11 +6,10 @@
 
 #include "edgevox/atomic_file.hpp"
 #include "edgevox/trajectory_evaluation.hpp"
+#include "run/run_files.hpp"
 #include "tools/bag_reader.hpp"
 #include "tools/cloud_mapping.hpp"
 #include "tools/config_file.hpp"
-#include "tools/map_export.hpp"
-#include "tools/run_files.hpp"
 
 namespace edgevox {
 namespace {
@@ -35,9 +34,9 @@ void makeFolder(const fs::path& folder, const Config& config) {
 }
 
 void requireScans(const BagReader& bag, const CloudMapping& mapping) {
-  if (!mapping.scans().empty()) return;
+  if (!mapping.run().scans.empty()) return;
   std::string reasons;
-  for (const auto& [reason, count] : mapping.cloudsLeftOut()) {
+  for (const auto& [reason, count] : mapping.run().left_out) {
     reasons += (reasons.empty() ? "" : ", ") + reason + " " + std::to_string(count);
   }
   throw BagError("none of the " + std::to_string(bag.cloudCount()) + " clouds on topic '" +
@@ -55,15 +54,6 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   mapping.finish();
 }
 
-void writeMap(const OccupiedVoxelMap& map, const MapBagOptions& options) {
-  const auto edges = centroidsOf(map, map.edgeVoxels());
-  writePly(options.output / "map_edges.ply", edges);
-  writePcd(options.output / "map_edges.pcd", edges);
-  if (options.write_occupied) {
-    writePly(options.output / "map_occupied.ply", centroidsOf(map, map.hitVoxels()));
-  }
-}
-
 }  // namespace
 
 Report runMapBag(const MapBagOptions& options, Console& console) {
@@ -78,16 +68,16 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   CloudMapping mapping(config, SensorFrames(transforms, options.frames), console);
   mapClouds(bag, options, console, mapping);
 
-  const Trajectory trajectory = mapping.trajectory();
-  writeTum(options.output / "trajectory.tum", trajectory);
-  writeMap(mapping.map(), options);
-  writeFile(options.output / "timings.csv", timingsCsv(mapping.scans()));
+  const RunRecord& run = mapping.run();
+  writeTum(options.output / "trajectory.tum", run.trajectory);
+  writeMap(options.output, mapping.map(), options.write_occupied);
+  writeFile(options.output / "timings.csv", timingsCsv(run.scans));
   std::optional<TrajectoryErrors> errors;
   if (reference) {
-    errors = evaluate(trajectory, *reference);
+    errors = evaluate(run.trajectory, *reference);
     writeFile(options.output / "errors.csv", errorsCsv(*errors));
   }
-  const Report summary = summarise(mapping, errors);
+  const Report summary = summarise(run, mapping.map(), errors);
   writeFile(options.output / "summary.json", summary.json());
   return summary;
 }

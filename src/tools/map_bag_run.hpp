@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "run/report.hpp"
 #include "tools/console.hpp"
 #include "tools/map_bag_options.hpp"
-#include "tools/report.hpp"
 
 namespace edgevox {
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "edgevox/motion.hpp"
 #include "edgevox/trajectory_io.hpp"
 #include "map_bag_fixture.hpp"
 
@@ -63,7 +64,7 @@ TEST_F(MapBagTest, writesWhatItSays) {
   EXPECT_EQ(linesOf(options_.output / "errors.csv"), size_t{kSweeps} + 1);
   EXPECT_EQ(contentOf(options_.output / "timings.csv")
                 .find("scan,stamp,status,hit_ratio,points,voxels,voxelize_ms,extract_ms,match_ms,"
-                      "insert_ms,label_ms,total_ms\n0,"),
+                      "insert_ms,label_ms,total_ms,latency_ms\n0,"),
             0U);
   EXPECT_EQ(contentOf(options_.output / "errors.csv").find("stamp,ape_m,rpe_m,rpe_deg,moving\n"),
             0U);
@@ -172,8 +173,36 @@ TEST_F(MapBagTest, trajectoryOfTheBase) {
   const Trajectory sensor = readTum(options_.output / "trajectory.tum");
   const Trajectory base = readTum(of_base.output / "trajectory.tum");
   ASSERT_EQ(sensor.size(), base.size());
+  // The map frames are those of the base and of the sensor at the first scan.
+  EXPECT_TRUE(base.front().pose.isApprox(Pose::Identity(), 1e-9));
   for (size_t i = 0; i < base.size(); ++i) {
-    EXPECT_TRUE((base[i].pose * T_base_sensor).isApprox(sensor[i].pose, 1e-6));
+    const Pose expected = T_base_sensor * sensor[i].pose * T_base_sensor.inverse();
+    EXPECT_LT((base[i].pose.translation() - expected.translation()).norm(), 0.02) << i;
+    EXPECT_LT(rotationAngle(base[i].pose.inverse() * expected), 0.005) << i;
+  }
+}
+
+TEST_F(MapBagTest, theMapFrameIsThatOfTheOdometry) {
+  const test::SimulatedRun& simulated = simulatedRun();
+  Pose T_odom_map(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()));
+  T_odom_map.translation() = Eigen::Vector3d(10, -5, 0);
+  {
+    rosbag::Bag bag(options_.bag, rosbag::bagmode::Write);
+    test::writeClouds(bag, "/points", simulated.clouds);
+    for (size_t i = 0; i < simulated.truth.size(); ++i) {
+      const ros::Time stamp = simulated.clouds[i].header.stamp;
+      test::writeTransform(
+          bag, "/tf", stamp,
+          test::transformOf("odom", "lidar", stamp, T_odom_map * simulated.truth[i].pose));
+    }
+  }
+  options_.frames.odom = "odom";
+  run();
+  const Trajectory trajectory = readTum(options_.output / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), size_t{kSweeps});
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const Pose expected = T_odom_map * simulated.truth[i].pose;
+    EXPECT_LT((trajectory[i].pose.translation() - expected.translation()).norm(), 0.03) << i;
   }
 }
 

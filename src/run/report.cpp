@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/report.hpp"
+#include "run/report.hpp"
 
 #include <array>
 #include <cmath>

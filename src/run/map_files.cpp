@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/map_export.hpp"
+#include "run/map_files.hpp"
 
 #include <pcl/exceptions.h>
 #include <pcl/io/pcd_io.h>

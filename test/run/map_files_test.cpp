@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/map_export.hpp"
+#include "run/map_files.hpp"
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
@@ -24,7 +24,7 @@ void expectPoints(const PclCloud& cloud, const Points& points) {
   }
 }
 
-TEST(MapExport, pclReadsWhatIsWritten) {
+TEST(MapFiles, pclReadsWhatIsWritten) {
   const test::TempFolder folder;
   const Points points = {{1, 2, 3}, {-0.5F, 1e-6F, 1e6F}, {0, 0, 0}};
   writePly(folder / "map.ply", points);
@@ -37,7 +37,7 @@ TEST(MapExport, pclReadsWhatIsWritten) {
   expectPoints(pcd, points);
 }
 
-TEST(MapExport, mapWithoutPoints) {
+TEST(MapFiles, mapWithoutPoints) {
   const test::TempFolder folder;
   writePly(folder / "map.ply", {});
   writePcd(folder / "map.pcd", {});
@@ -48,13 +48,13 @@ TEST(MapExport, mapWithoutPoints) {
   EXPECT_GT(std::filesystem::file_size(folder / "map.ply"), 0U);
 }
 
-TEST(MapExport, failuresAreReported) {
+TEST(MapFiles, failuresAreReported) {
   const test::TempFolder folder;
   EXPECT_THROW(writePly(folder / "none" / "map.ply", {{1, 2, 3}}), FileError);
   EXPECT_THROW(writePcd(folder / "none" / "map.pcd", {{1, 2, 3}}), FileError);
 }
 
-TEST(MapExport, centroidsInTheOrderOfVoxels) {
+TEST(MapFiles, centroidsInTheOrderOfVoxels) {
   OccupiedVoxelMap map(0.1, 3.2, MapConfig(), EdgeConfig(), 1);
   const std::vector<Eigen::Vector3d> centroids = {
       {0.05, 0.05, 0.35}, {0.95, 0.05, 0.05}, {0.07, 0.05, 0.05}, {0.05, 0.35, 0.05}};

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/run_files.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "edgevox/statistics.hpp"
+#include "run/map_files.hpp"
+
+namespace edgevox {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMilliseconds = 1e3;  // in a second
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "";
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+template <typename Seconds>
+std::vector<double> milliseconds(const std::vector<ScanRecord>& scans, const Seconds& seconds) {
+  std::vector<double> values(scans.size());
+  std::transform(scans.begin(), scans.end(), values.begin(), [&](const ScanRecord& record) {
+    return kMilliseconds * static_cast<double>(seconds(record));
+  });
+  return values;
+}
+
+/// [ms]
+std::vector<double> latenciesOf(const std::vector<ScanRecord>& scans) {
+  std::vector<double> values;
+  for (const ScanRecord& record : scans) {
+    if (record.latency > 0) values.push_back(kMilliseconds * static_cast<double>(record.latency));
+  }
+  return values;
+}
+
+void addScans(const RunRecord& run, Report& report) {
+  report.add("scans", uint64_t{run.scans.size()});
+  report.add("tracked", uint64_t{run.located()});
+  report.add("fallback", uint64_t{run.count(ScanStatus::kFallback)});
+  report.add("lost", uint64_t{run.count(ScanStatus::kLost)});
+  report.add("stale", uint64_t{run.count(ScanStatus::kStale)});
+  report.add("too_few_voxels", uint64_t{run.count(ScanStatus::kTooFew)});
+  report.add("without_odometry", uint64_t{run.without_odometry});
+  report.add("clock_jumps", uint64_t{run.clock_jumps});
+  Report left_out;
+  for (const auto& [reason, count] : run.left_out) left_out.add(reason, uint64_t{count});
+  report.add("clouds_left_out", left_out);
+}
+
+void addPoints(const RunRecord& run, Report& report) {
+  Report dropped;
+  dropped.add("not_finite", run.dropped_points.not_finite);
+  dropped.add("too_near", run.dropped_points.too_near);
+  dropped.add("too_far", run.dropped_points.too_far);
+  report.add("points", run.points);
+  report.add("points_dropped", dropped);
+  report.add("time_field", run.time_field.empty() ? "none" : run.time_field);
+  report.add("point_times_ignored", run.dropped_points.bad_time);
+}
+
+void addTimes(const std::vector<ScanRecord>& scans, Report& report) {
+  const std::vector<double> totals = milliseconds(scans, [](const auto& r) { return r.total; });
+  report.add("ms_mean", mean(totals));
+  report.add("ms_p95", quantile(totals, 0.95));
+  Report stages;
+  for (size_t i = 0; i < kStageNames.size(); ++i) {
+    stages.add(kStageNames[i],
+               mean(milliseconds(scans, [i](const auto& r) { return r.stages[i]; })));
+  }
+  report.add("ms_stages", stages);
+  const std::vector<double> latencies = latenciesOf(scans);
+  if (latencies.empty()) return;
+  report.add("latency_ms_median", quantile(latencies, 0.5));
+  report.add("latency_ms_p95", quantile(latencies, 0.95));
+}
+
+double peakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void addMap(const OccupiedVoxelMap& map, Report& report) {
+  const uint64_t occupied = map.hitVoxels().voxelCount();
+  const uint64_t edges = map.edgeVoxels().voxelCount();
+  report.add("occupied_voxels", occupied);
+  report.add("edge_voxels", edges);
+  report.add("compression", static_cast<double>(occupied) / static_cast<double>(edges));
+  report.add("map_bytes", uint64_t{map.packedBytes()});
+  report.add("map_bytes_working", uint64_t{map.bytes()});
+  report.add("peak_rss_mb", peakMegabytes());
+}
+
+void addErrors(const TrajectoryErrors& errors, Report& report) {
+  report.add("reference_poses", uint64_t{errors.poses.size()});
+  report.add("ape_rmse_m", errors.ape_rmse_m);
+  report.add("ape_rmse_deg", errors.ape_rmse_deg);
+  for (const auto& [prefix, rpe] : {std::make_pair(std::string(), errors.moving),
+                                    std::make_pair(std::string("standing_"), errors.standing)}) {
+    report.add(prefix.empty() ? "moving_pairs" : "standing_pairs", uint64_t{rpe.pairs});
+    report.add(prefix + "rpe_median_m", rpe.median_m);
+    report.add(prefix + "rpe_p95_m", rpe.p95_m);
+    report.add(prefix + "rpe_median_deg", rpe.median_deg);
+    report.add(prefix + "rpe_p95_deg", rpe.p95_deg);
+  }
+}
+
+}  // namespace
+
+std::string timingsCsv(const std::vector<ScanRecord>& scans) {
+  std::string text = "scan,stamp,status,hit_ratio,points,voxels";
+  for (const char* stage : kStageNames) text += std::string(",") + stage + "_ms";
+  text += ",total_ms,latency_ms\n";
+  const auto ms = [](float seconds) {
+    return fixed(kMilliseconds * static_cast<double>(seconds), 3);
+  };
+  for (const ScanRecord& record : scans) {
+    text += std::to_string(record.cloud) + "," + fixed(record.stamp, 6) + "," +
+            name(record.status) + "," + fixed(static_cast<double>(record.hit_ratio), 4) + "," +
+            std::to_string(record.points) + "," + std::to_string(record.voxels);
+    for (const float seconds : record.stages) text += "," + ms(seconds);
+    text += "," + ms(record.total) + "," + (record.latency > 0 ? ms(record.latency) : "") + "\n";
+  }
+  return text;
+}
+
+std::string errorsCsv(const TrajectoryErrors& errors) {
+  std::string text = "stamp,ape_m,rpe_m,rpe_deg,moving\n";
+  for (const PoseError& pose : errors.poses) {
+    text += fixed(pose.stamp, 6) + "," + fixed(pose.ape_m, 6) + "," + fixed(pose.rpe_m, 6) + "," +
+            fixed(pose.rpe_deg, 6) + "," + (pose.moving ? "1" : "0") + "\n";
+  }
+  return text;
+}
+
+Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
+                 const std::optional<TrajectoryErrors>& errors) {
+  Report report;
+  addScans(run, report);
+  addTimes(run.scans, report);
+  addMap(map, report);
+  if (errors) addErrors(*errors, report);
+  addPoints(run, report);
+  return report;
+}
+
+void writeMap(const fs::path& folder, const OccupiedVoxelMap& map, bool occupied_too) {
+  const auto edges = centroidsOf(map, map.edgeVoxels());
+  writePly(folder / "map_edges.ply", edges);
+  writePcd(folder / "map_edges.pcd", edges);
+  if (occupied_too) writePly(folder / "map_occupied.ply", centroidsOf(map, map.hitVoxels()));
+}
+
+}  // namespace edgevox

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/trajectory_evaluation.hpp"
+#include "run/report.hpp"
+#include "run/run_record.hpp"
+
+namespace edgevox {
+
+/// A row a scan, a column a stage.
+std::string timingsCsv(const std::vector<ScanRecord>& scans);
+/// A row for each pose that the reference knows.
+std::string errorsCsv(const TrajectoryErrors& errors);
+
+Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
+                 const std::optional<TrajectoryErrors>& errors = std::nullopt);
+
+/// map_edges.ply and .pcd, and map_occupied.ply if asked for. Throws FileError.
+void writeMap(const std::filesystem::path& folder, const OccupiedVoxelMap& map,
+              bool occupied_too = false);
+
+}  // namespace edgevox

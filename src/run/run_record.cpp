@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run/run_record.hpp"
+
+#include <algorithm>
+
+namespace edgevox {
+
+void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_base_sensor,
+                    double total, double latency) {
+  const ScanResult& scan = result.scan;
+  ScanRecord record;
+  record.cloud = cloud;
+  record.stamp = scan.stamp;
+  record.status = scan.status;
+  record.hit_ratio = static_cast<float>(scan.hit_ratio);
+  record.points = static_cast<uint32_t>(result.points);
+  record.voxels = static_cast<uint32_t>(result.scan_voxels);
+  const std::array<double, kStageNames.size()> seconds = {
+      result.voxelize, result.extract, scan.times.match, scan.times.insert, scan.times.label};
+  std::transform(seconds.begin(), seconds.end(), record.stages.begin(),
+                 [](double s) { return static_cast<float>(s); });
+  record.total = static_cast<float>(total);
+  record.latency = static_cast<float>(latency);
+  scans.push_back(record);
+
+  if (scan.located())
+    trajectory.push_back({scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()});
+  if (scan.clock_jumped) ++clock_jumps;
+  points += result.points;
+  dropped_points += result.dropped;
+}
+
+size_t RunRecord::count(ScanStatus status) const {
+  return static_cast<size_t>(
+      std::count_if(scans.begin(), scans.end(),
+                    [&](const ScanRecord& record) { return record.status == status; }));
+}
+
+}  // namespace edgevox

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "edgevox/pipeline.hpp"
+#include "edgevox/trajectory_io.hpp"
+
+namespace edgevox {
+
+/// Stages of the pipeline, in order.
+enum class Stage { kVoxelize, kExtract, kMatch, kInsert, kLabel };
+constexpr std::array<const char*, 5> kStageNames = {"voxelize", "extract", "match", "insert",
+                                                    "label"};
+
+/// What is remembered of one scan.
+struct ScanRecord {
+  uint64_t cloud = 0;  ///< counts the clouds of the input, from 0
+  double stamp = 0.0;  ///< [s]
+  ScanStatus status = ScanStatus::kLost;
+  float hit_ratio = 0.0F;
+  uint32_t points = 0;
+  uint32_t voxels = 0;
+  std::array<float, kStageNames.size()> stages{};  ///< [s]
+  float total = 0.0F;                              ///< time of the whole pipeline [s]
+  float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
+};
+
+/// An account of a run, for its files. Grows by about 250 bytes a scan.
+struct RunRecord {
+  std::vector<ScanRecord> scans;
+  Trajectory trajectory;  ///< T_map_base of the located scans; of the sensor without a base frame
+  std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
+  size_t without_odometry = 0;             ///< scans, though an odometry frame is used
+  size_t clock_jumps = 0;
+  uint64_t points = 0;
+  DroppedPoints dropped_points;
+  std::string time_field;  ///< empty: the points have no times
+
+  void add(uint64_t cloud, const PipelineResult& result, const Pose& T_base_sensor, double total,
+           double latency = 0.0);
+  size_t count(ScanStatus status) const;
+  size_t located() const { return trajectory.size(); }
+};
+
+}  // namespace edgevox
