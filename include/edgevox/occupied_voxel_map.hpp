@@ -194,4 +194,7 @@ class OccupiedVoxelMap {
   std::vector<uint32_t> slots_;             // of the same, at one level
 };
 
+/// Centroids of the voxels of level 0, in the order of the voxels [m].
+std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels);
+
 }  // namespace edgevox

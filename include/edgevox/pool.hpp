@@ -15,7 +15,9 @@ class Pool {
   Pool() = default;
   Pool(Pool&&) = default;
   Pool& operator=(Pool&&) = default;
-  Pool(const Pool&) = delete;
+  Pool(const Pool& other) : size_(other.size_) {
+    for (const auto& chunk : other.chunks_) chunks_.push_back(std::make_unique<Chunk>(*chunk));
+  }
   Pool& operator=(const Pool&) = delete;
 
   T& operator[](size_t i) { return (*chunks_[i / kChunk])[i % kChunk]; }

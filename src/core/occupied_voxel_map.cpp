@@ -250,4 +250,15 @@ size_t OccupiedVoxelMap::bytes() const {
   return bytes;
 }
 
+std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels) {
+  std::vector<VoxelIndex> indices;
+  voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
+  std::sort(indices.begin(), indices.end());
+  std::vector<Eigen::Vector3f> points(indices.size());
+  std::transform(indices.begin(), indices.end(), points.begin(), [&](const VoxelIndex& v) {
+    return Eigen::Vector3f(map.centroid(v).cast<float>());
+  });
+  return points;
+}
+
 }  // namespace edgevox

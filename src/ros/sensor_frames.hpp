@@ -23,6 +23,13 @@ struct TransformError {
 
 using Transform = std::variant<Pose, TransformError>;
 
+/// TF 1 names may begin with a slash, which tf2 refuses.
+std::string withoutSlash(const std::string& frame);
+
+/// T_target_source at the stamp.
+Transform lookUp(const tf2::BufferCore& buffer, const std::string& target,
+                 const std::string& source, const ros::Time& stamp);
+
 /// What a mapper needs to know from TF about a scan. A transform that is not there is an error,
 /// never the identity.
 class SensorFrames {
@@ -38,9 +45,6 @@ class SensorFrames {
   Transform odometry(const std::string& sensor_frame, const ros::Time& stamp) const;
 
  private:
-  Transform lookUp(const std::string& target, const std::string& source,
-                   const ros::Time& stamp) const;
-
   const tf2::BufferCore& buffer_;
   FrameNames names_;
 };

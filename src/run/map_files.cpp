@@ -6,7 +6,6 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <algorithm>
 #include <string>
 
 #include "edgevox/atomic_file.hpp"
@@ -32,17 +31,6 @@ PclCloud toPcl(const std::vector<Eigen::Vector3f>& points) {
 }
 
 }  // namespace
-
-std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels) {
-  std::vector<VoxelIndex> indices;
-  voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
-  std::sort(indices.begin(), indices.end());
-  std::vector<Eigen::Vector3f> points(indices.size());
-  std::transform(indices.begin(), indices.end(), points.begin(), [&](const VoxelIndex& v) {
-    return Eigen::Vector3f(map.centroid(v).cast<float>());
-  });
-  return points;
-}
 
 void writePly(const fs::path& file, const std::vector<Eigen::Vector3f>& points) {
   static_assert(sizeof(Eigen::Vector3f) == 12, "points are packed");

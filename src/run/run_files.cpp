@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "edgevox/atomic_file.hpp"
 #include "edgevox/statistics.hpp"
 #include "run/map_files.hpp"
 
@@ -56,6 +57,8 @@ void addScans(const RunRecord& run, Report& report) {
   Report left_out;
   for (const auto& [reason, count] : run.left_out) left_out.add(reason, uint64_t{count});
   report.add("clouds_left_out", left_out);
+  report.add("refused", run.refused);
+  report.add("dropped", run.dropped);
 }
 
 void addPoints(const RunRecord& run, Report& report) {
@@ -153,6 +156,14 @@ Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
   if (errors) addErrors(*errors, report);
   addPoints(run, report);
   return report;
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  throw FileError("cannot make the folder '" + folder.string() + "': " + error.message() +
+                  "; choose another one");
 }
 
 void writeMap(const fs::path& folder, const OccupiedVoxelMap& map, bool occupied_too) {

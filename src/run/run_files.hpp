@@ -21,6 +21,9 @@ std::string errorsCsv(const TrajectoryErrors& errors);
 Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
+/// With all folders above it. Throws FileError.
+void makeFolder(const std::filesystem::path& folder);
+
 /// map_edges.ply and .pcd, and map_occupied.ply if asked for. Throws FileError.
 void writeMap(const std::filesystem::path& folder, const OccupiedVoxelMap& map,
               bool occupied_too = false);

@@ -22,13 +22,9 @@ constexpr std::array<const char*, 7> kResults = {
     "timings.csv",    "errors.csv",    "summary.json"};
 
 /// Also takes out of it what an earlier run has left: this one may fail, or write fewer files.
-void makeFolder(const fs::path& folder, const Config& config) {
+void prepareFolder(const fs::path& folder, const Config& config) {
+  makeFolder(folder);
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw FileError("cannot make the folder '" + folder.string() + "': " + error.message() +
-                    "; choose another one with --output");
-  }
   for (const char* file : kResults) fs::remove(folder / file, error);
   writeFile(folder / "config.yaml", yamlText(config));
 }
@@ -61,7 +57,7 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   std::optional<Trajectory> reference;
   if (!options.reference.empty()) reference = readTum(options.reference);
   BagReader bag(options.bag, options.topic);
-  makeFolder(options.output, config);
+  prepareFolder(options.output, config);
 
   tf2::BufferCore transforms{ros::Duration(kTransformCache)};
   bag.readTransforms(transforms);

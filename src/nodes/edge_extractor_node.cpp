@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/edge_extractor_node.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include "edgevox/stage_timer.hpp"
+#include "nodes/scan_clouds.hpp"
+#include "ros/voxel_scan_message.hpp"
+
+namespace edgevox {
+namespace {
+
+/// Puts the edges of `scan` into the message it was read from.
+void setEdges(const VoxelScan& scan, const EdgeCount& count, VoxelScanStamped& message) {
+  message.occupied_voxels = static_cast<uint32_t>(count.occupied);
+  message.edge_voxels = static_cast<uint32_t>(count.edges);
+  size_t i = 0;
+  for (Voxel& voxel : message.voxels) {
+    const bool is_next =
+        i < scan.voxels.size() && scan.voxels[i].index == VoxelIndex{voxel.x, voxel.y, voxel.z};
+    voxel.edge = static_cast<uint8_t>(is_next && scan.voxels[i].edge);
+    if (is_next) ++i;
+  }
+}
+
+}  // namespace
+
+EdgeExtractorNode::EdgeExtractorNode(const ros::NodeHandle& handle,
+                                     const ros::NodeHandle& private_handle, const std::string& name)
+    : log_(name),
+      parameters_(readNodeParameters(private_handle)),
+      extractor_(parameters_.config.edges, parameters_.config.threads),
+      edges_(ros::NodeHandle(handle).advertise<VoxelScanStamped>("edges", 10)),
+      cloud_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("edges_cloud", 2)),
+      input_(handle, "voxels", parameters_.queue_size, log_,
+             [this](const Input::Arrival& arrival) { process(arrival); }),
+      diagnostics_(handle, private_handle, name,
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+
+void EdgeExtractorNode::process(const Input::Arrival& arrival) {
+  const auto mismatch = mismatchOf(*arrival.message, parameters_.config);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_.mismatch = mismatch.value_or("");
+  }
+  if (mismatch) {
+    log_.warn("config_mismatch", "scans from '" + input_.topic() + "' are refused: " + *mismatch);
+    return;
+  }
+  StageTimer timer(Clock::kWall);
+  VoxelScan scan = fromMessage(*arrival.message);
+  const EdgeCount count = extractor_.extract(scan);
+  const double seconds = timer.lap();
+
+  const auto message = boost::make_shared<VoxelScanStamped>(*arrival.message);
+  setEdges(scan, count, *message);
+  message->extract_seconds = static_cast<float>(seconds);
+  message->dropped += input_.dropped();
+  addSettings(parameters_.config, {"edges/"}, *message);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_.last = count;
+    state_.times.add(seconds);
+  }
+  edges_.publish(message);
+  if (cloud_.getNumSubscribers() > 0) cloud_.publish(cloudOf(*message, ScanPart::kEdges));
+}
+
+void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
+  const InputReading reading = input_.reading();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status.summaryf(DiagnosticStatus::OK, "%zu edge voxels of %zu in a scan",
+                  state_.last.edges, state_.last.occupied);
+  if (!state_.mismatch.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.mismatch);
+  } else if (state_.last.occupied > 0 && state_.last.edges == 0) {
+    warn(
+        "no edges in the last scan: it is flat, or voxel_size is smaller than the gap between "
+        "scan lines",
+        status);
+  }
+  addInput(reading, state_.dropped_told, status);
+  status.add("occupied voxels of a scan", state_.last.occupied);
+  status.add("edge voxels of a scan", state_.last.edges);
+  addTimes("extract", state_.times, status);
+}
+
+}  // namespace edgevox

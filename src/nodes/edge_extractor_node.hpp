@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <edgevox/VoxelScanStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <mutex>
+#include <string>
+
+#include "edgevox/edge_extractor.hpp"
+#include "nodes/diagnostics.hpp"
+#include "ros/parameters.hpp"
+#include "ros/scan_input.hpp"
+#include "ros/throttled_log.hpp"
+
+namespace edgevox {
+
+/// `voxels` to `edges`, the same with the edge voxels marked, and, if somebody listens,
+/// `edges_cloud`. Scans made with another configuration are refused.
+class EdgeExtractorNode {
+ public:
+  /// Throws ConfigError.
+  EdgeExtractorNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                    const std::string& name);
+
+ private:
+  using Input = ScanInput<VoxelScanStamped>;
+
+  /// What diagnostics tell.
+  struct State {
+    std::string mismatch;
+    uint64_t dropped_told = 0;
+    EdgeCount last;
+    RollingTimes times;
+  };
+
+  void process(const Input::Arrival& arrival);
+  void diagnose(DiagnosticStatus& status);
+
+  ThrottledLog log_;
+  NodeParameters parameters_;
+  EdgeExtractor extractor_;
+  ros::Publisher edges_;
+  ros::Publisher cloud_;
+  std::mutex mutex_;  // of the state
+  State state_;
+  Input input_;
+  NodeDiagnostics diagnostics_;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/mapper_node.hpp"
+
+#include <algorithm>
+
+#include "nodes/save_run.hpp"
+#include "ros/voxel_scan_message.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kTransformCache = 30.0;    // [s]
+constexpr double kPoll = 0.002;             // of TF [s]
+constexpr double kLongestLatency = 3600.0;  // more is a scan from a bag [s]
+constexpr double kMapShare = 0.05;          // of the time, for clouds of the map
+
+/// From the arrival of the cloud; 0 if that was on another day or computer [s].
+float latencyOf(const VoxelScanStamped& scan) {
+  const double seconds = ros::WallTime::now().toSec() - scan.arrival.toSec();
+  return seconds > 0 && seconds < kLongestLatency ? static_cast<float>(seconds) : 0.0F;
+}
+
+}  // namespace
+
+MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                       const std::string& name)
+    : log_(name),
+      parameters_(readMapperParameters(private_handle)),
+      transforms_(ros::Duration(kTransformCache)),
+      listener_(transforms_, handle),
+      reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
+      map_publisher_(handle, parameters_.map_frame),
+      transformer_(SensorFrames(transforms_, parameters_.frames)),
+      map_transform_(handle, transforms_, parameters_.map_frame, parameters_.frames.odom),
+      pose_publisher_(handle, parameters_.map_frame, parameters_.frames.base,
+                      parameters_.path_length),
+      mapper_(parameters_.config, Clock::kWall),
+      input_(handle, "edges", parameters_.queue_size, log_,
+             [this](const Input::Arrival& arrival) { process(arrival); }),
+      map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
+                                        [this](const ros::WallTimerEvent&) { publishMap(); })),
+      save_service_(
+          ros::NodeHandle(handle).advertiseService("save_map", &MapperNode::saveMap, this)),
+      reset_service_(ros::NodeHandle(handle).advertiseService("reset", &MapperNode::reset, this)),
+      diagnostics_(handle, private_handle, name,
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+
+void MapperNode::process(const Input::Arrival& arrival) {
+  const VoxelScanStamped& scan = *arrival.message;
+  const auto refusal = refusalOf(scan);
+  if (!refusal) waitForTransforms(arrival);
+  if (input_.stopping()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (refusal) {
+    ++run_.left_out[refusal->reason];
+    return tell(reportOn(scan, *refusal));
+  }
+  const auto transforms = transformer_.transformsOf(scan.header);
+  if (const auto* unusable = std::get_if<ScanRefusal>(&transforms)) {
+    ++run_.left_out[unusable->reason];
+    return tell(reportOn(scan, *unusable));
+  }
+  tell(map(scan, std::get<ScanTransforms>(transforms)));
+}
+
+std::optional<ScanRefusal> MapperNode::refusalOf(const VoxelScanStamped& scan) const {
+  const auto mismatch = mismatchOf(scan, parameters_.config);
+  if (!mismatch) return std::nullopt;
+  return ScanRefusal{"config_mismatch", *mismatch};
+}
+
+void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {
+  const std_msgs::Header& header = arrival.message->header;
+  const ros::WallTime until = arrival.time + ros::WallDuration(parameters_.transform_wait);
+  while (!(transformer_.isReady(header) && map_transform_.isReady(header)) &&
+         ros::WallTime::now() < until && !input_.stopping()) {
+    ros::WallDuration(kPoll).sleep();
+  }
+}
+
+ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+  const ScanResult result = mapper_.process(fromMessage(scan), transforms.prior());
+  if (result.clock_jumped) {
+    log_.warn(
+        "clock_jump",
+        "the stamps have jumped back: the velocity is forgotten, and the map is " +
+            std::string(parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap
+                            ? "cleared"
+                            : "kept; call reset for a new one"));
+    transforms_.clear();
+  }
+  publishPose(scan, result, transforms);
+  ScanReport report = reportOn(scan, result);
+  report.latency = latencyOf(scan);
+  const double total = static_cast<double>(report.voxelize + report.extract + report.match +
+                                           report.insert + report.label);
+  run_.time_field = scan.time_field;
+  run_.add(scan.number, toPipelineResult(scan, result), transforms.T_base_sensor, total,
+           static_cast<double>(report.latency));
+  if (result.located()) ++map_version_;
+  return report;
+}
+
+void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& result,
+                             const ScanTransforms& transforms) {
+  if (!transforms.odometry_error.empty()) {
+    ++run_.without_odometry;
+    log_.warn("no_odometry",
+              "scan " + std::to_string(scan.number) +
+                  " is predicted at constant velocity: " + transforms.odometry_error);
+  }
+  status_.setOdometryError(transforms.odometry_error);
+  if (parameters_.publish_tf && result.status != ScanStatus::kStale) {
+    const std::string error = map_transform_.publish(scan.header, result, transforms);
+    status_.setTransformError(error);
+    if (!error.empty()) log_.warn("transform", "no pose on TF: " + error);
+  }
+  if (!result.located()) return;
+  pose_publisher_.publish(scan.header, result, transforms.T_base_sensor);
+  last_stamp_ = scan.header.stamp;
+}
+
+void MapperNode::tell(ScanReport report) {
+  report.dropped += input_.dropped();
+  if (!report.located) {
+    log_.warn(report.status, "scan " + std::to_string(report.number) + " is " + report.status +
+                                 ": " + report.text);
+  }
+  status_.add(report);
+  run_.refused = report.refused;
+  run_.dropped = report.dropped;
+  reports_.publish(report);
+}
+
+void MapperNode::publishMap() {
+  const ros::WallTime start = ros::WallTime::now();
+  MapPublisher::Content content;
+  ros::Time stamp;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pose_publisher_.publishPath();
+    content = map_publisher_.collect(mapper_.map(), map_version_);
+    stamp = last_stamp_;
+  }
+  map_publisher_.publish(content, parameters_.config.voxel_size, stamp);
+  const double taken = (ros::WallTime::now() - start).toSec();
+  map_timer_.setPeriod(ros::WallDuration(std::max(parameters_.map_period, taken / kMapShare)));
+}
+
+bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
+  const std::string folder = request.folder.empty() ? parameters_.output : request.folder;
+  std::unique_lock<std::mutex> lock(mutex_);
+  OccupiedVoxelMap map = mapper_.map();
+  const RunRecord run = run_;
+  lock.unlock();
+  try {
+    response.message = saveRun(folder, parameters_.config, run, map);
+    response.success = static_cast<uint8_t>(true);
+    ROS_INFO_STREAM(response.message);
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = static_cast<uint8_t>(false);
+    log_.warn("save", response.message);
+  }
+  return true;
+}
+
+bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  mapper_.reset();
+  transformer_.reset();
+  map_transform_.reset();
+  pose_publisher_.reset();
+  run_ = {};
+  status_ = {};
+  status_.droppedTold() = input_.dropped();
+  ++map_version_;
+  response.message = "the map is empty; the next scan is its first";
+  response.success = static_cast<uint8_t>(true);
+  return true;
+}
+
+void MapperNode::diagnose(DiagnosticStatus& status) {
+  const InputReading reading = input_.reading();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.fill(mapper_.map(), status);
+  addInput(reading, status_.droppedTold(), status);
+}
+
+}  // namespace edgevox

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <edgevox/SaveMap.h>
+#include <edgevox/VoxelScanStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/service_server.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <mutex>
+#include <string>
+
+#include "edgevox/mapper.hpp"
+#include "nodes/diagnostics.hpp"
+#include "nodes/mapper_status.hpp"
+#include "nodes/scan_report.hpp"
+#include "ros/map_publisher.hpp"
+#include "ros/map_transform.hpp"
+#include "ros/parameters.hpp"
+#include "ros/pose_publisher.hpp"
+#include "ros/scan_input.hpp"
+#include "ros/scan_transforms.hpp"
+#include "ros/throttled_log.hpp"
+#include "run/run_record.hpp"
+
+namespace edgevox {
+
+/// `edges` (or `voxels`) to the pose on TF, `odom` and `path`, and to the map on `map_edges`,
+/// `map_boxes` and `map_occupied`. `scan_report` tells what became of every scan.
+class MapperNode {
+ public:
+  /// Throws ConfigError.
+  MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+             const std::string& name);
+
+ private:
+  using Input = ScanInput<VoxelScanStamped>;
+
+  void process(const Input::Arrival& arrival);
+  void waitForTransforms(const Input::Arrival& arrival) const;
+  std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& scan) const;
+  ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
+  void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
+                   const ScanTransforms& transforms);
+  void tell(ScanReport report);
+  void publishMap();
+  bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
+  bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void diagnose(DiagnosticStatus& status);
+
+  ThrottledLog log_;
+  MapperParameters parameters_;
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_;
+  ros::Publisher reports_;
+  MapPublisher map_publisher_;
+
+  std::mutex mutex_;  // of all below, up to the input
+  ScanTransformer transformer_;
+  MapTransform map_transform_;
+  PosePublisher pose_publisher_;
+  Mapper mapper_;
+  RunRecord run_;
+  MapperStatus status_;
+  uint64_t map_version_ = 0;
+  ros::Time last_stamp_;  // of the last located scan
+
+  Input input_;
+  ros::WallTimer map_timer_;
+  ros::ServiceServer save_service_;
+  ros::ServiceServer reset_service_;
+  NodeDiagnostics diagnostics_;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/mapper_status.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kSlowLatency = 0.3;  // [s]
+
+}  // namespace
+
+void MapperStatus::add(const ScanReport& report) {
+  last_ = report;
+  ++scans_;
+  ++counts_[report.status];
+  not_located_in_a_row_ = report.located ? 0 : not_located_in_a_row_ + 1;
+  if (!report.located) return;
+  const std::array<float, kStageNames.size()> seconds = {report.voxelize, report.extract,
+                                                         report.match, report.insert, report.label};
+  for (size_t i = 0; i < seconds.size(); ++i) times_[i].add(static_cast<double>(seconds[i]));
+  if (report.latency > 0) latency_.add(static_cast<double>(report.latency));
+}
+
+void MapperStatus::summarise(DiagnosticStatus& status) const {
+  if (scans_ == 0) {
+    status.summary(DiagnosticStatus::OK, "no scan yet");
+  } else if (last_.located) {
+    status.summaryf(DiagnosticStatus::OK, "%s, hit ratio %.2f", last_.status.c_str(),
+                    static_cast<double>(last_.hit_ratio));
+  } else if (last_.status == "stale" || last_.status == "too_few") {
+    warn(last_.status + ": " + last_.text, status);
+  } else {
+    const std::string count = std::to_string(not_located_in_a_row_);
+    const std::string word = last_.status == "lost" ? "LOST" : last_.status;
+    status.summary(DiagnosticStatus::ERROR, word + " for " + count + " scans: " + last_.text);
+  }
+  if (!transform_error_.empty()) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "no pose on TF: " + transform_error_);
+  }
+  if (!odometry_error_.empty()) {
+    warn("predicted at constant velocity: " + odometry_error_, status);
+  }
+  if (latency_.quantile(0.5) > kSlowLatency) {
+    warn(
+        "poses come late: choose a larger voxel_size, fewer matcher/refine_points or a faster "
+        "computer",
+        status);
+  }
+}
+
+void MapperStatus::fill(const OccupiedVoxelMap& map, DiagnosticStatus& status) const {
+  summarise(status);
+  status.add("scans", scans_);
+  for (const auto& [name, count] : counts_) status.add("scans " + name, count);
+  status.add("hit ratio", last_.hit_ratio);
+  status.add("required hit ratio", last_.required_hit_ratio);
+  status.add("matches", last_.matches);
+  status.add("restarts", last_.restarts);
+  status.add("edge voxels of the scan", last_.edge_voxels);
+  status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
+  status.add("occupied voxels of the map", map.hitVoxels().voxelCount());
+  status.addf("map packed [MB]", "%.2f", static_cast<double>(map.packedBytes()) / 1e6);
+  status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
+  status.add("clouds refused before", last_.refused);
+  status.add("scans dropped in all", last_.dropped);
+  for (size_t i = 0; i < times_.size(); ++i) addTimes(kStageNames[i], times_[i], status);
+  addTimes("latency", latency_, status);
+}
+
+}  // namespace edgevox

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <edgevox/ScanReport.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "edgevox/occupied_voxel_map.hpp"
+#include "nodes/diagnostics.hpp"
+#include "run/run_record.hpp"
+
+namespace edgevox {
+
+/// What the mapper's diagnostics tell: how the last scans went, and what to do if they went badly.
+class MapperStatus {
+ public:
+  void add(const ScanReport& report);
+  void setTransformError(const std::string& error) { transform_error_ = error; }
+  void setOdometryError(const std::string& error) { odometry_error_ = error; }
+
+  /// Fills all but the input.
+  void fill(const OccupiedVoxelMap& map, DiagnosticStatus& status) const;
+  uint64_t& droppedTold() { return dropped_told_; }
+
+ private:
+  void summarise(DiagnosticStatus& status) const;
+
+  ScanReport last_;
+  uint64_t scans_ = 0;
+  uint64_t not_located_in_a_row_ = 0;
+  std::map<std::string, uint64_t> counts_;  // scans by status
+  std::string transform_error_;
+  std::string odometry_error_;
+  std::array<RollingTimes, kStageNames.size()> times_;
+  RollingTimes latency_;
+  uint64_t dropped_told_ = 0;
+};
+
+}  // namespace edgevox

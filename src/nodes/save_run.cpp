@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/save_run.hpp"
+
+#include <filesystem>
+
+#include "edgevox/atomic_file.hpp"
+#include "run/run_files.hpp"
+
+namespace edgevox {
+
+std::string saveRun(const std::string& folder, const Config& config, const RunRecord& run,
+                    OccupiedVoxelMap& map) {
+  if (folder.empty()) {
+    throw FileError(
+        "no folder to save the map to: give one in the request, or set the parameter "
+        "output of the mapper");
+  }
+  if (folder.front() != '/') {
+    throw FileError("the folder '" + folder + "' is not absolute; begin it with /");
+  }
+  map.label();
+  const std::filesystem::path path = folder;
+  makeFolder(path);
+  writeFile(path / "config.yaml", yamlText(config));
+  writeMap(path, map);
+  writeTum(path / "trajectory.tum", run.trajectory);
+  writeFile(path / "timings.csv", timingsCsv(run.scans));
+  writeFile(path / "summary.json", summarise(run, map).json());
+  return "saved " + std::to_string(map.edgeVoxels().voxelCount()) + " edge voxels and " +
+         std::to_string(run.trajectory.size()) + " poses to " + folder;
+}
+
+}  // namespace edgevox

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/scan_report.hpp"
+
+#include <cmath>
+
+namespace edgevox {
+namespace {
+
+std::string percent(double ratio) {
+  return std::to_string(static_cast<int>(std::lround(100 * ratio))) + " %";
+}
+
+ScanReport reportOn(const VoxelScanStamped& scan) {
+  ScanReport report;
+  report.header = scan.header;
+  report.number = scan.number;
+  report.points = static_cast<uint32_t>(scan.points_read);
+  report.voxels = static_cast<uint32_t>(scan.voxels.size());
+  report.edge_voxels = scan.edge_voxels;
+  report.voxelize = scan.voxelize_seconds;
+  report.extract = scan.extract_seconds;
+  report.refused = scan.refused;
+  report.dropped = scan.dropped;
+  return report;
+}
+
+}  // namespace
+
+std::string adviceOn(const ScanResult& result) {
+  switch (result.status) {
+    case ScanStatus::kLost:
+      return percent(result.hit_ratio) + " of the scan fits the map, " +
+             percent(result.required_hit_ratio) +
+             " must; the map is as before: go back to a mapped place, or call reset for a new map";
+    case ScanStatus::kStale:
+      return "its stamp is not later than that of the scan before; if all scans are like this, the "
+             "driver's stamps stand still or two drivers publish on one topic";
+    case ScanStatus::kTooFew:
+      return "it has too few voxels to be matched; is the sensor covered, or min_range too large?";
+    default:
+      return "";
+  }
+}
+
+PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& result) {
+  PipelineResult all;
+  all.scan = result;
+  all.points = scan.points_read;
+  all.scan_voxels = scan.voxels.size();
+  all.dropped = {scan.points_not_finite, scan.points_too_near, scan.points_too_far,
+                 scan.point_times_ignored};
+  all.edges = {scan.occupied_voxels, scan.edge_voxels};
+  all.voxelize = static_cast<double>(scan.voxelize_seconds);
+  all.extract = static_cast<double>(scan.extract_seconds);
+  return all;
+}
+
+ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
+  ScanReport report = reportOn(scan);
+  report.located = static_cast<uint8_t>(result.located());
+  report.status = name(result.status);
+  report.text = adviceOn(result);
+  report.hit_ratio = static_cast<float>(result.hit_ratio);
+  report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);
+  report.matches = result.matches;
+  report.restarts = result.restarts;
+  report.match = static_cast<float>(result.times.match);
+  report.insert = static_cast<float>(result.times.insert);
+  report.label = static_cast<float>(result.times.label);
+  return report;
+}
+
+ScanReport reportOn(const VoxelScanStamped& scan, const ScanRefusal& refusal) {
+  ScanReport report = reportOn(scan);
+  report.status = refusal.reason;
+  report.text = refusal.text;
+  return report;
+}
+
+}  // namespace edgevox

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <edgevox/ScanReport.h>
+#include <edgevox/VoxelScanStamped.h>
+
+#include <string>
+
+#include "edgevox/mapper.hpp"
+#include "edgevox/pipeline.hpp"
+#include "ros/scan_transforms.hpp"
+
+namespace edgevox {
+
+/// Why a scan has no pose and what to do about it; empty if it has one.
+std::string adviceOn(const ScanResult& result);
+
+/// What the offline pipeline would have given for the scan.
+PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& result);
+
+ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result);
+ScanReport reportOn(const VoxelScanStamped& scan, const ScanRefusal& refusal);
+
+}  // namespace edgevox

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "edgevox/config.hpp"
+#include "ros/sensor_frames.hpp"
+
+namespace edgevox {
+
+/// Parameters of every nodelet.
+struct NodeParameters {
+  Config config;
+  int queue_size = 10;  ///< scans that wait; of more the oldest is dropped
+};
+
+struct MapperParameters : NodeParameters {
+  std::string map_frame = "map";
+  FrameNames frames;
+  bool publish_tf = true;
+  std::string output;           ///< folder of save_map, absolute
+  double transform_wait = 0.3;  ///< for the transforms of a scan, from its arrival [s]
+  int path_length = 5000;       ///< poses
+  double map_period = 1.0;      ///< least time between two clouds of the map [s]
+};
+
+/// What a nodelet takes beside the configuration, valid as long as the argument.
+std::vector<Parameter> nodeParametersOf(NodeParameters& parameters);
+std::vector<Parameter> nodeParametersOf(MapperParameters& parameters);
+
+/// Reads all parameters of a nodelet from its private namespace: the only place that does. A name
+/// that is not known is a warning. Throws ConfigError with the parameter's full name.
+NodeParameters readNodeParameters(const ros::NodeHandle& private_handle);
+MapperParameters readMapperParameters(const ros::NodeHandle& private_handle);
+
+}  // namespace edgevox

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <std_msgs/Header.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "edgevox/mapper.hpp"
+
+namespace edgevox {
+
+/// Publishes poses of the base in the map: `odom` at once, `path` when asked to.
+class PosePublisher {
+ public:
+  /// `base_frame` empty: the sensor's own frame.
+  PosePublisher(ros::NodeHandle handle, std::string map_frame, std::string base_frame,
+                int path_length);
+
+  /// Of a located scan; `header` is the scan's.
+  void publish(const std_msgs::Header& header, const ScanResult& scan, const Pose& T_base_sensor);
+  /// If it has changed and somebody listens. Poses less than 5 cm apart are left out.
+  void publishPath();
+  void reset();
+
+ private:
+  struct Last {
+    double stamp;  // [s]
+    Pose T_map_base;
+    Matrix6 covariance;
+  };
+
+  void appendToPath(const geometry_msgs::PoseStamped& pose);
+
+  std::string map_frame_;
+  std::string base_frame_;
+  size_t path_length_;
+  std::optional<Last> last_;
+  std::deque<geometry_msgs::PoseStamped> path_;
+  bool path_changed_ = false;
+  ros::Publisher odometry_;
+  ros::Publisher path_publisher_;
+};
+
+}  // namespace edgevox
