@@ -12,6 +12,7 @@ namespace edgevox {
 namespace {
 
 constexpr int kDeepestTree = 100;  // tf2 accepts loops
+const ros::WallDuration kPatience(0.3);
 
 }  // namespace
 
@@ -25,63 +26,79 @@ MapTransform::MapTransform(ros::NodeHandle handle, const tf2::BufferCore& buffer
 }
 
 bool MapTransform::isReady(const std_msgs::Header& header) const {
-  if (!odom_frame_.empty()) return true;
   const std::string sensor_frame = withoutSlash(header.frame_id);
-  if (!child_) return !parentOf(sensor_frame).empty();
-  return *child_ == sensor_frame || buffer_.canTransform(*child_, sensor_frame, header.stamp);
+  return !odom_frame_.empty() || !child_ || *child_ == sensor_frame ||
+         buffer_.canTransform(*child_, sensor_frame, header.stamp);
 }
 
 std::string MapTransform::publish(const std_msgs::Header& header, const ScanResult& scan,
                                   const ScanTransforms& transforms) {
+  if (!odom_frame_.empty()) return publishOdometry(header, scan, transforms);
   if (header.frame_id.empty()) {
     return "the clouds' header.frame_id is empty, so the pose cannot go to TF; set it in the "
            "driver";
   }
-  chooseChild(withoutSlash(header.frame_id));
-  const std::string error = locate(header, scan, transforms);
-  if (!error.empty() || !T_map_child_) return error;
+  if (scan.located()) early_.push_back({header, scan.T_map_sensor});
+  if (!chooseChild(withoutSlash(header.frame_id))) return "";
+  std::string error;
+  for (const Located& located : early_) error = publishRoot(located);
+  early_.clear();
+  return error;
+}
+
+std::string MapTransform::publishOdometry(const std_msgs::Header& header, const ScanResult& scan,
+                                          const ScanTransforms& transforms) {
+  if (scan.located() && transforms.T_odom_sensor) {
+    T_map_odom_ = scan.T_map_sensor * transforms.T_odom_sensor->inverse();
+  }
+  const std::string error = T_map_odom_ ? send(*T_map_odom_, header.stamp) : "";
+  return error.empty() ? transforms.odometry_error : error;
+}
+
+std::string MapTransform::publishRoot(const Located& located) {
+  const Transform T_child_sensor =
+      lookUp(buffer_, *child_, located.header.frame_id, located.header.stamp);
+  if (const auto* error = std::get_if<TransformError>(&T_child_sensor)) return error->text;
+  return send(located.T_map_sensor * std::get<Pose>(T_child_sensor).inverse(),
+              located.header.stamp);
+}
+
+std::string MapTransform::send(const Pose& T_map_child, const ros::Time& stamp) const {
+  if (*child_ == map_frame_) {
+    return "frame '" + map_frame_ +
+           "' is already the root of the sensor's frames, by another node or by a bag; choose "
+           "another map_frame, or play the bag without /tf";
+  }
   const std::string parent = parentOf(*child_);
   if (!parent.empty() && parent != map_frame_) {
     return "frame '" + *child_ + "' already has the parent '" + parent + "', so '" + map_frame_ +
-           "' -> '" + *child_ + "' is not published; set odom_frame or base_frame to the robot's " +
-           "frames and start again, or stop the other publisher";
-  }
-  if (*child_ == map_frame_) {
-    return "frame '" + map_frame_ +
-           "' is already the root of the sensor's frames, published by "
-           "another node or by a bag; choose another map_frame, or play the bag without /tf";
+           "' -> '" + *child_ +
+           "' is not published; set odom_frame or base_frame to the robot's frames and start "
+           "again, or stop the other publisher";
   }
   tf2_msgs::TFMessage message;
-  message.transforms.push_back(toMessage(*T_map_child_, map_frame_, *child_, header.stamp));
+  message.transforms.push_back(toMessage(T_map_child, map_frame_, *child_, stamp));
   publisher_.publish(message);
   return "";
 }
 
-void MapTransform::chooseChild(const std::string& sensor_frame) {
-  if (child_) return;
-  child_ = sensor_frame;
+void MapTransform::reset() {
+  T_map_odom_.reset();
+  early_.clear();
+}
+
+/// False if it is too early to tell.
+bool MapTransform::chooseChild(const std::string& sensor_frame) {
+  if (child_) return true;
+  if (first_.isZero()) first_ = ros::WallTime::now();
   std::string parent = parentOf(sensor_frame);
+  if (parent.empty() && ros::WallTime::now() < first_ + kPatience) return false;
+  child_ = sensor_frame;
   for (int depth = 0; !parent.empty() && depth < kDeepestTree; ++depth) {
     child_ = parent;
     parent = parentOf(parent);
   }
-}
-
-std::string MapTransform::locate(const std_msgs::Header& header, const ScanResult& scan,
-                                 const ScanTransforms& transforms) {
-  if (!odom_frame_.empty()) {
-    if (!scan.located()) return "";
-    if (transforms.T_odom_sensor) {
-      T_map_child_ = scan.T_map_sensor * transforms.T_odom_sensor->inverse();
-    }
-    return transforms.odometry_error;
-  }
-  T_map_child_.reset();
-  if (!scan.located()) return "";
-  const Transform T_child_sensor = lookUp(buffer_, *child_, header.frame_id, header.stamp);
-  if (const auto* error = std::get_if<TransformError>(&T_child_sensor)) return error->text;
-  T_map_child_ = scan.T_map_sensor * std::get<Pose>(T_child_sensor).inverse();
-  return "";
+  return true;
 }
 
 std::string MapTransform::parentOf(const std::string& frame) const {
