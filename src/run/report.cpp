@@ -46,6 +46,10 @@ void Report::add(const std::string& name, const Report& group) {
   entries_.push_back({name, "", {group}});
 }
 
+void Report::append(const Report& other) {
+  entries_.insert(entries_.end(), other.entries_.begin(), other.entries_.end());
+}
+
 std::string Report::jsonAt(int depth) const {
   if (entries_.empty()) return "{}";
   const std::string indent(2 * static_cast<size_t>(depth) + 2, ' ');

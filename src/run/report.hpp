@@ -14,6 +14,7 @@ class Report {
   void add(const std::string& name, uint64_t value);
   void add(const std::string& name, const std::string& value);
   void add(const std::string& name, const Report& group);
+  void append(const Report& other);  ///< its values after those of this one
 
   std::string json() const { return jsonAt(0) + "\n"; }
   std::string table() const;

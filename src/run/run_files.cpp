@@ -105,20 +105,6 @@ void addMap(const OccupiedVoxelMap& map, Report& report) {
   report.add("peak_rss_mb", peakMegabytes());
 }
 
-void addErrors(const TrajectoryErrors& errors, Report& report) {
-  report.add("reference_poses", uint64_t{errors.poses.size()});
-  report.add("ape_rmse_m", errors.ape_rmse_m);
-  report.add("ape_rmse_deg", errors.ape_rmse_deg);
-  for (const auto& [prefix, rpe] : {std::make_pair(std::string(), errors.moving),
-                                    std::make_pair(std::string("standing_"), errors.standing)}) {
-    report.add(prefix.empty() ? "moving_pairs" : "standing_pairs", uint64_t{rpe.pairs});
-    report.add(prefix + "rpe_median_m", rpe.median_m);
-    report.add(prefix + "rpe_p95_m", rpe.p95_m);
-    report.add(prefix + "rpe_median_deg", rpe.median_deg);
-    report.add(prefix + "rpe_p95_deg", rpe.p95_deg);
-  }
-}
-
 }  // namespace
 
 std::string timingsCsv(const std::vector<ScanRecord>& scans) {
@@ -147,13 +133,29 @@ std::string errorsCsv(const TrajectoryErrors& errors) {
   return text;
 }
 
+Report errorsReport(const TrajectoryErrors& errors) {
+  Report report;
+  report.add("reference_poses", uint64_t{errors.poses.size()});
+  report.add("ape_rmse_m", errors.ape_rmse_m);
+  report.add("ape_rmse_deg", errors.ape_rmse_deg);
+  for (const auto& [prefix, rpe] : {std::make_pair(std::string(), errors.moving),
+                                    std::make_pair(std::string("standing_"), errors.standing)}) {
+    report.add(prefix.empty() ? "moving_pairs" : "standing_pairs", uint64_t{rpe.pairs});
+    report.add(prefix + "rpe_median_m", rpe.median_m);
+    report.add(prefix + "rpe_p95_m", rpe.p95_m);
+    report.add(prefix + "rpe_median_deg", rpe.median_deg);
+    report.add(prefix + "rpe_p95_deg", rpe.p95_deg);
+  }
+  return report;
+}
+
 Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
                  const std::optional<TrajectoryErrors>& errors) {
   Report report;
   addScans(run, report);
   addTimes(run.scans, report);
   addMap(map, report);
-  if (errors) addErrors(*errors, report);
+  if (errors) report.append(errorsReport(*errors));
   addPoints(run, report);
   return report;
 }

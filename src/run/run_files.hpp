@@ -18,6 +18,9 @@ std::string timingsCsv(const std::vector<ScanRecord>& scans);
 /// A row for each pose that the reference knows.
 std::string errorsCsv(const TrajectoryErrors& errors);
 
+/// The same in a few numbers.
+Report errorsReport(const TrajectoryErrors& errors);
+
 Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
