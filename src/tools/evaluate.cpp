@@ -29,8 +29,8 @@ po::options_description describe() {
 }
 
 void evaluateRun(const fs::path& folder, const fs::path& reference) {
-  const auto errors =
-      edgevox::evaluate(edgevox::readTum(folder / "trajectory.tum"), edgevox::readTum(reference));
+  const auto estimate = edgevox::readTum(folder / "trajectory.tum");
+  const auto errors = edgevox::evaluate(estimate, edgevox::readTum(reference));
   edgevox::writeFile(folder / "errors.csv", edgevox::errorsCsv(errors));
   std::cout << edgevox::errorsReport(errors).json();
 }
