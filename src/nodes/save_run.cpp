@@ -23,11 +23,11 @@ std::string saveRun(const std::string& folder, const Config& config, const RunRe
   makeFolder(path);
   writeFile(path / "config.yaml", yamlText(config));
   writeMap(path, map);
-  writeTum(path / "trajectory.tum", run.trajectory);
+  writeTum(path / "trajectory.tum", run.trajectory());
   writeFile(path / "timings.csv", timingsCsv(run.scans));
   writeFile(path / "summary.json", summarise(run, map).json());
   return "saved " + std::to_string(map.edgeVoxels().voxelCount()) + " edge voxels and " +
-         std::to_string(run.trajectory.size()) + " poses to " + folder;
+         std::to_string(run.located()) + " poses to " + folder;
 }
 
 }  // namespace edgevox

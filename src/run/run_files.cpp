@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "edgevox/atomic_file.hpp"
 #include "edgevox/statistics.hpp"
@@ -28,7 +29,7 @@ std::string fixed(double value, int decimals) {
 }
 
 template <typename Seconds>
-std::vector<double> milliseconds(const std::vector<ScanRecord>& scans, const Seconds& seconds) {
+std::vector<double> milliseconds(const std::deque<ScanRecord>& scans, const Seconds& seconds) {
   std::vector<double> values(scans.size());
   std::transform(scans.begin(), scans.end(), values.begin(), [&](const ScanRecord& record) {
     return kMilliseconds * static_cast<double>(seconds(record));
@@ -37,7 +38,7 @@ std::vector<double> milliseconds(const std::vector<ScanRecord>& scans, const Sec
 }
 
 /// [ms]
-std::vector<double> latenciesOf(const std::vector<ScanRecord>& scans) {
+std::vector<double> latenciesOf(const std::deque<ScanRecord>& scans) {
   std::vector<double> values;
   for (const ScanRecord& record : scans) {
     if (record.latency > 0) values.push_back(kMilliseconds * static_cast<double>(record.latency));
@@ -72,7 +73,7 @@ void addPoints(const RunRecord& run, Report& report) {
   report.add("point_times_ignored", run.dropped_points.bad_time);
 }
 
-void addTimes(const std::vector<ScanRecord>& scans, Report& report) {
+void addTimes(const std::deque<ScanRecord>& scans, Report& report) {
   const std::vector<double> totals = milliseconds(scans, [](const auto& r) { return r.total; });
   report.add("ms_mean", mean(totals));
   report.add("ms_p95", quantile(totals, 0.95));
@@ -107,7 +108,7 @@ void addMap(const OccupiedVoxelMap& map, Report& report) {
 
 }  // namespace
 
-std::string timingsCsv(const std::vector<ScanRecord>& scans) {
+std::string timingsCsv(const std::deque<ScanRecord>& scans) {
   std::string text = "scan,stamp,status,hit_ratio,points,voxels";
   for (const char* stage : kStageNames) text += std::string(",") + stage + "_ms";
   text += ",total_ms,latency_ms\n";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "edgevox/occupied_voxel_map.hpp"
 #include "edgevox/trajectory_evaluation.hpp"
@@ -14,7 +14,7 @@
 namespace edgevox {
 
 /// A row a scan, a column a stage.
-std::string timingsCsv(const std::vector<ScanRecord>& scans);
+std::string timingsCsv(const std::deque<ScanRecord>& scans);
 /// A row for each pose that the reference knows.
 std::string errorsCsv(const TrajectoryErrors& errors);
 

@@ -23,8 +23,7 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.latency = static_cast<float>(latency);
   scans.push_back(record);
 
-  if (scan.located())
-    trajectory.push_back({scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()});
+  if (scan.located()) poses.push_back({scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()});
   if (scan.clock_jumped) ++clock_jumps;
   points += result.points;
   dropped_points += result.dropped;

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "edgevox/pipeline.hpp"
 #include "edgevox/trajectory_io.hpp"
@@ -31,10 +31,11 @@ struct ScanRecord {
   float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
 };
 
-/// An account of a run, for its files. Grows by about 250 bytes a scan.
+/// An account of a run, for its files. Grows by about 200 bytes a scan, without being moved.
 struct RunRecord {
-  std::vector<ScanRecord> scans;
-  Trajectory trajectory;  ///< T_map_base of the located scans; of the sensor without a base frame
+  std::deque<ScanRecord> scans;
+  std::deque<StampedPose>
+      poses;  ///< T_map_base of the located scans; without a base frame of the sensor
   std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
   size_t clock_jumps = 0;
@@ -47,7 +48,8 @@ struct RunRecord {
   void add(uint64_t cloud, const PipelineResult& result, const Pose& T_base_sensor, double total,
            double latency = 0.0);
   size_t count(ScanStatus status) const;
-  size_t located() const { return trajectory.size(); }
+  size_t located() const { return poses.size(); }
+  Trajectory trajectory() const { return {poses.begin(), poses.end()}; }
 };
 
 }  // namespace edgevox

@@ -65,12 +65,12 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   mapClouds(bag, options, console, mapping);
 
   const RunRecord& run = mapping.run();
-  writeTum(options.output / "trajectory.tum", run.trajectory);
+  writeTum(options.output / "trajectory.tum", run.trajectory());
   writeMap(options.output, mapping.map(), options.write_occupied);
   writeFile(options.output / "timings.csv", timingsCsv(run.scans));
   std::optional<TrajectoryErrors> errors;
   if (reference) {
-    errors = evaluate(run.trajectory, *reference);
+    errors = evaluate(run.trajectory(), *reference);
     writeFile(options.output / "errors.csv", errorsCsv(*errors));
   }
   const Report summary = summarise(run, mapping.map(), errors);
