@@ -33,9 +33,10 @@ void addInput(const InputReading& reading, uint64_t& last_dropped, DiagnosticSta
   }
   status.add("dropped", reading.dropped);
   if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
-    warn("/use_sim_time is set but there is no /clock: play the bag with --clock, or for a live "
-         "sensor 'rosparam set /use_sim_time false' and start again",
-         status);
+    warn(
+        "/use_sim_time is set but there is no /clock: play the bag with --clock, or for a live "
+        "sensor 'rosparam set /use_sim_time false' and start again",
+        status);
   }
   if (reading.silence > kSilence) {
     warn("nothing on '" + reading.topic + "' for " +

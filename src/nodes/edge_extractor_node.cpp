@@ -69,8 +69,8 @@ void EdgeExtractorNode::process(const Input::Arrival& arrival) {
 void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
   const std::lock_guard<std::mutex> lock(mutex_);
-  status.summaryf(DiagnosticStatus::OK, "%zu edge voxels of %zu in a scan",
-                  state_.last.edges, state_.last.occupied);
+  status.summaryf(DiagnosticStatus::OK, "%zu edge voxels of %zu in a scan", state_.last.edges,
+                  state_.last.occupied);
   if (!state_.mismatch.empty()) {
     status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.mismatch);
   } else if (state_.last.occupied > 0 && state_.last.edges == 0) {

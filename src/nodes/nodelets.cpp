@@ -12,11 +12,12 @@
 namespace edgevox {
 
 /// Owns a node for as long as the nodelet is loaded. A wrong parameter keeps it from being loaded.
+/// Its callbacks may run at the same time, so that a service does not hold up the scans.
 template <typename Node>
 class NodeletOf : public nodelet::Nodelet {
   void onInit() override {
     try {
-      node_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle(), getName());
+      node_ = std::make_unique<Node>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName());
     } catch (const std::exception& error) {
       NODELET_FATAL_STREAM(error.what());
       throw;
