@@ -19,8 +19,8 @@ WorldName parseWorldName(std::string_view name);
 /// moves furniture, door leaves, façades and parked cars, never the walls of rooms.
 World makeWorld(WorldName name, std::uint64_t seed);
 
-/// The path of a carried or driven sensor through the world; building and street end where they
-/// begin. Keeps at least 0.35 m from every solid.
+/// The path of a carried or driven sensor through the world, at rest at both ends; building and
+/// street end in the pose they begin in. Keeps at least 0.35 m from every solid.
 Trajectory makeTrajectory(WorldName name);
 
 /// The path for this sensor: makeTrajectory, or stations along it for a standing sensor.

@@ -67,7 +67,11 @@ std::optional<double> numberOf(const po::variables_map& given, const char* name)
 }
 
 po::options_description describeOptions() {
-  po::options_description description("simulate: a lidar's sweeps through a made-up world");
+  po::options_description description(
+      "simulate: a lidar's sweeps through a made-up world\n"
+      "Building (76 s) and street (81.6 s) end as they begin: same place, same heading, at rest,\n"
+      "so that their bags can be played round after round.\n\n"
+      "Options");
   auto add = description.add_options();
   add("help,h", "print this text");
   add("world", po::value<std::string>()->required(), "building, street or corridor");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 
 namespace edgevox::sim {
@@ -99,6 +100,45 @@ TEST(Trajectory, LoopsClose) {
     EXPECT_GE(path.duration(), 60.0);
     EXPECT_LE(path.duration(), 90.0);
   }
+}
+
+// So that a bag can be played again and again: the sweeps fill the path, and the last of them sees
+// what the first one sees, from the same place.
+TEST(Trajectory, RoundsJoinWithoutAJump) {
+  for (const WorldName name : {WorldName::Building, WorldName::Street}) {
+    for (const char* lines : {"16", "32", "64"}) {
+      const Sensor sensor = makeSensor(lines);
+      const Trajectory path = makeTrajectory(name, sensor);
+      const double last = (countSweeps(path, sensor) - 1) * sensor.period;
+      EXPECT_NEAR(last + sensor.period, path.duration(), 1e-9);
+      for (const double t : {0.0, 0.5 * sensor.period, sensor.period}) {
+        EXPECT_TRUE(path.poseAt(last + t).isApprox(path.poseAt(t), 1e-12));
+      }
+    }
+  }
+}
+
+// The README's figures and the benchmarks belong to these paths.
+TEST(Trajectory, PathsAreTheOnesThatWereMeasured) {
+  const Trajectory walk = makeTrajectory(WorldName::Building);
+  EXPECT_DOUBLE_EQ(walk.duration(), 76.0);
+  const auto at = [](const Trajectory& path, double t) -> Vector3d {
+    return path.poseAt(t).translation();
+  };
+  constexpr double kExact = 1e-11;
+  EXPECT_TRUE(at(walk, 0.0).isApprox(Vector3d(5.0, 8.0, 1.4), kExact));
+  EXPECT_TRUE(at(walk, 20.0).isApprox(Vector3d(20.197355005189, 7.999985668849, 1.412), kExact));
+  EXPECT_TRUE(
+      at(walk, 40.0).isApprox(Vector3d(16.499384573940, 6.925922727836, 4.412000000000), kExact));
+  EXPECT_TRUE(
+      at(walk, 60.0).isApprox(Vector3d(2.350000388992, 9.856303339089, 3.866710664663), kExact));
+  const Trajectory drive = makeTrajectory(WorldName::Street);
+  EXPECT_DOUBLE_EQ(drive.duration(), 81.6);
+  EXPECT_TRUE(at(drive, 40.0).isApprox(Vector3d(13.598236678765, 55.000011033921, 1.808), kExact));
+  const Trajectory corridor = makeTrajectory(WorldName::Corridor);
+  EXPECT_DOUBLE_EQ(corridor.duration(), 43.0);
+  EXPECT_TRUE(
+      at(corridor, 40.0).isApprox(Vector3d(33.616858407678, 2.445368324302, 1.412), kExact));
 }
 
 TEST(Trajectory, BuildingPathClimbsToTheUpperStorey) {
