@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "edgevox/clock_watch.hpp"
 #include "edgevox/config.hpp"
 #include "edgevox/matcher.hpp"
 #include "edgevox/motion.hpp"
@@ -97,7 +98,6 @@ class Mapper {
     std::optional<Pose> T_odom_sensor;
   };
 
-  bool isInTime(double stamp, ScanResult& result);
   void forgetMotion();
   void align(const VoxelScan& scan, const SweepTime& sweep, Located& now, ScanResult& result);
   void advance(const VoxelScan& scan, const Located& now);
@@ -112,11 +112,10 @@ class Mapper {
 
   Config config_;
   Clock clock_;
+  ClockWatch clock_watch_;  // of the located scans
   Matcher matcher_;
   OccupiedVoxelMap map_;
-  std::optional<double> last_stamp_;      // of the last located scan [s]
   Pose T_map_sensor_ = Pose::Identity();  // at the stamp of the last located scan
-  std::optional<double> jumped_to_;       // stamp of the last scan, if it was far back [s]
   std::optional<Located> last_;           // none if the motion is not known
   Twist twist_;                           // from the last but one located sweep to the last
   Twist twist_in_sweep_;                  // in the last one

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/LU>
 
@@ -73,6 +72,7 @@ double RunningMedian::median() const {
 Mapper::Mapper(const Config& config, Clock clock)
     : config_(config),
       clock_(clock),
+      clock_watch_(config.mapper.clock_jump),
       matcher_(config.matcher),
       map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
            config.threads) {}
@@ -83,9 +83,15 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   result.number = scan.number;
   result.stamp = scan.stamp;
   result.T_map_sensor = T_map_sensor_;
-  if (!isInTime(scan.stamp, result)) {
+  const ClockWatch::Order order = clock_watch_.check(scan.stamp);
+  if (order == ClockWatch::Order::kLate) {
     result.status = ScanStatus::kStale;
     return result;
+  }
+  if (order == ClockWatch::Order::kJumpedBack) {
+    result.clock_jumped = true;
+    config_.mapper.after_clock_jump == AfterClockJump::kClearMap ? reset() : forgetMotion();
+    result.T_map_sensor = T_map_sensor_;
   }
   if (scan.voxels.size() < kFewestVoxels) {
     result.status = ScanStatus::kTooFew;
@@ -104,31 +110,15 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
     return result;
   }
   lost_in_a_row_ = 0;
-  last_stamp_ = scan.stamp;
+  clock_watch_.accept(scan.stamp);
   advance(scan, now);
   result.T_map_sensor = T_map_sensor_;
   insert(scan, sweep, result);
   return result;
 }
 
-/// One scan far in the past may have a wrong stamp; a second one after it shows that the clock has
-/// jumped back.
-bool Mapper::isInTime(double stamp, ScanResult& result) {
-  const std::optional<double> suspected = std::exchange(jumped_to_, std::nullopt);
-  if (!last_stamp_ || stamp > *last_stamp_) return true;
-  if (!(stamp < *last_stamp_ - config_.mapper.clock_jump)) return false;
-  if (!suspected || stamp <= *suspected) {
-    jumped_to_ = stamp;
-    return false;
-  }
-  result.clock_jumped = true;
-  config_.mapper.after_clock_jump == AfterClockJump::kClearMap ? reset() : forgetMotion();
-  result.T_map_sensor = T_map_sensor_;
-  return true;
-}
-
 void Mapper::forgetMotion() {
-  last_stamp_.reset();
+  clock_watch_.reset();
   last_.reset();
   twist_ = {};
   twist_in_sweep_ = {};

@@ -16,8 +16,7 @@ void setEdges(const VoxelScan& scan, const EdgeCount& count, VoxelScanStamped& m
   message.edge_voxels = static_cast<uint32_t>(count.edges);
   size_t i = 0;
   for (Voxel& voxel : message.voxels) {
-    const bool is_next =
-        i < scan.voxels.size() && scan.voxels[i].index == VoxelIndex{voxel.x, voxel.y, voxel.z};
+    const bool is_next = isPossible(voxel, message.voxel_size);
     voxel.edge = static_cast<uint8_t>(is_next && scan.voxels[i].edge);
     if (is_next) ++i;
   }

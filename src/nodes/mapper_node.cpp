@@ -28,6 +28,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       parameters_(readMapperParameters(private_handle)),
       transforms_(ros::Duration(kTransformCache)),
       listener_(transforms_, handle),
+      clock_watch_(parameters_.config.mapper.clock_jump),
       reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
       map_publisher_(handle, parameters_.map_frame),
       transformer_(SensorFrames(transforms_, parameters_.frames)),
@@ -47,6 +48,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 void MapperNode::process(const Input::Arrival& arrival) {
   const VoxelScanStamped& scan = *arrival.message;
+  watchClock(scan.header.stamp.toSec());
   const auto refusal = refusalOf(scan);
   if (!refusal) waitForTransforms(arrival);
   if (input_.stopping()) return;
@@ -61,6 +63,13 @@ void MapperNode::process(const Input::Arrival& arrival) {
     return tell(reportOn(scan, *unusable));
   }
   tell(map(scan, std::get<ScanTransforms>(transforms)));
+}
+
+/// After a jump back TF would refuse the transforms of the new time, as too old.
+void MapperNode::watchClock(double stamp) {
+  const ClockWatch::Order order = clock_watch_.check(stamp);
+  if (order == ClockWatch::Order::kJumpedBack) transforms_.clear();
+  if (order != ClockWatch::Order::kLate) clock_watch_.accept(stamp);
 }
 
 std::optional<ScanRefusal> MapperNode::refusalOf(const VoxelScanStamped& scan) const {
@@ -81,13 +90,11 @@ void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {
 ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
   const ScanResult result = mapper_.process(fromMessage(scan), transforms.prior());
   if (result.clock_jumped) {
-    log_.warn(
-        "clock_jump",
-        "the stamps have jumped back: the velocity is forgotten, and the map is " +
-            std::string(parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap
-                            ? "cleared"
-                            : "kept; call reset for a new one"));
-    transforms_.clear();
+    const bool cleared = parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap;
+    if (cleared) pose_publisher_.reset();
+    log_.warn("clock_jump",
+              "the stamps have jumped back: the velocity is forgotten, and the map is " +
+                  std::string(cleared ? "cleared" : "kept; call reset for a new one"));
   }
   publishPose(scan, result, transforms);
   ScanReport report = reportOn(scan, result);
@@ -133,11 +140,12 @@ void MapperNode::tell(ScanReport report) {
 }
 
 void MapperNode::publishMap() {
-  const ros::WallTime start = ros::WallTime::now();
   MapPublisher::Content content;
   ros::Time stamp;
+  ros::WallTime start;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    start = ros::WallTime::now();  // waiting for a scan costs nothing
     pose_publisher_.publishPath();
     content = map_publisher_.collect(mapper_.map(), map_version_);
     stamp = last_stamp_;

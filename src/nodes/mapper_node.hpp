@@ -13,6 +13,7 @@
 #include <mutex>
 #include <string>
 
+#include "edgevox/clock_watch.hpp"
 #include "edgevox/mapper.hpp"
 #include "nodes/diagnostics.hpp"
 #include "nodes/mapper_status.hpp"
@@ -40,6 +41,7 @@ class MapperNode {
   using Input = ScanInput<VoxelScanStamped>;
 
   void process(const Input::Arrival& arrival);
+  void watchClock(double stamp);
   void waitForTransforms(const Input::Arrival& arrival) const;
   std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& scan) const;
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
@@ -55,6 +57,7 @@ class MapperNode {
   MapperParameters parameters_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
+  ClockWatch clock_watch_;
   ros::Publisher reports_;
   MapPublisher map_publisher_;
 

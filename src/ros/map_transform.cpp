@@ -21,7 +21,8 @@ MapTransform::MapTransform(ros::NodeHandle handle, const tf2::BufferCore& buffer
     : buffer_(buffer),
       map_frame_(withoutSlash(map_frame)),
       odom_frame_(withoutSlash(odom_frame)),
-      publisher_(handle.advertise<tf2_msgs::TFMessage>("/tf", 100)) {
+      publisher_(handle.advertise<tf2_msgs::TFMessage>("/tf", 100)),
+      static_tf_(handle.subscribe("/tf_static", 100, &MapTransform::hearStatic, this)) {
   if (!odom_frame_.empty()) child_ = odom_frame_;
 }
 
@@ -51,8 +52,7 @@ std::string MapTransform::publishOdometry(const std_msgs::Header& header, const 
   if (scan.located() && transforms.T_odom_sensor) {
     T_map_odom_ = scan.T_map_sensor * transforms.T_odom_sensor->inverse();
   }
-  const std::string error = T_map_odom_ ? send(*T_map_odom_, header.stamp) : "";
-  return error.empty() ? transforms.odometry_error : error;
+  return T_map_odom_ ? send(*T_map_odom_, header.stamp) : transforms.odometry_error;
 }
 
 std::string MapTransform::publishRoot(const Located& located) {
@@ -101,7 +101,21 @@ bool MapTransform::chooseChild(const std::string& sensor_frame) {
   return true;
 }
 
+/// tf2 ignores a static parent of a frame that it has heard of on /tf: of what is published here.
+void MapTransform::hearStatic(const tf2_msgs::TFMessage::ConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& transform : message->transforms) {
+    static_parents_[withoutSlash(transform.child_frame_id)] =
+        withoutSlash(transform.header.frame_id);
+  }
+}
+
 std::string MapTransform::parentOf(const std::string& frame) const {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = static_parents_.find(frame);
+    if (found != static_parents_.end()) return found->second;
+  }
   std::string parent;
   return buffer_._getParent(frame, ros::Time(0), parent) ? parent : "";
 }

@@ -3,9 +3,13 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <ros/subscriber.h>
 #include <std_msgs/Header.h>
 #include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +56,7 @@ class MapTransform {
                               const ScanTransforms& transforms);
   std::string send(const Pose& T_map_child, const ros::Time& stamp) const;
   std::string parentOf(const std::string& frame) const;
+  void hearStatic(const tf2_msgs::TFMessage::ConstPtr& message);
 
   const tf2::BufferCore& buffer_;
   std::string map_frame_;
@@ -61,6 +66,9 @@ class MapTransform {
   std::vector<Located> early_;  // before the child was known
   ros::WallTime first_;         // scan
   ros::Publisher publisher_;
+  mutable std::mutex mutex_;  // of the parents
+  std::map<std::string, std::string> static_parents_;
+  ros::Subscriber static_tf_;
 };
 
 }  // namespace edgevox

@@ -74,12 +74,14 @@ class ScanInput {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       full = waiting_.size() >= capacity_;
-      if (full) waiting_.pop_front();
+      if (full) {
+        waiting_.pop_front();
+        ++dropped_;
+      }
       waiting_.push_back({message, ros::WallTime::now(), received_++});
     }
     arrived_.notify_one();
     if (!full) return;
-    ++dropped_;
     log_.warn("dropped", "scans from '" + topic_ + "' are dropped, " + std::to_string(dropped_) +
                              " so far, as they come faster than they are used; choose a larger "
                              "voxel_size or a slower rate");

@@ -52,6 +52,10 @@ std::string differenceText(const std::string& name, const std::string& theirs,
 
 }  // namespace
 
+bool isPossible(const Voxel& voxel, double voxel_size) {
+  return isPossible(fromMessage(voxel), voxel_size);
+}
+
 VoxelScanStamped toMessage(const VoxelScan& scan, const std_msgs::Header& header) {
   VoxelScanStamped message;
   message.header = header;

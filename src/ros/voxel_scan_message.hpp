@@ -15,7 +15,10 @@ namespace edgevox {
 /// Everything of the scan but its edge count; `header` is the cloud's.
 VoxelScanStamped toMessage(const VoxelScan& scan, const std_msgs::Header& header);
 
-/// Voxels that no voxelizer makes (not finite, out of the grid's range, of no points) are left out.
+/// Whether a voxelizer can have made it: finite, in the grid's range, of some points.
+bool isPossible(const Voxel& voxel, double voxel_size);
+
+/// Voxels that no voxelizer makes are left out.
 VoxelScan fromMessage(const VoxelScanStamped& message);
 
 /// Adds the parameters whose names begin with one of `prefixes` to the message.

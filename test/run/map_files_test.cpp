@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "edgevox/atomic_file.hpp"
+#include "edgevox/occupied_voxel_map.hpp"
 #include "support/temp_folder.hpp"
 
 namespace edgevox {
