@@ -4,6 +4,22 @@
 #include <algorithm>
 
 namespace edgevox {
+namespace {
+
+PoseRecord recordOf(double stamp, const Pose& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const Eigen::Vector3d& t = pose.translation();
+  return {stamp, {q.x(), q.y(), q.z(), q.w()}, {t.x(), t.y(), t.z()}};
+}
+
+Pose poseOf(const PoseRecord& record) {
+  const auto& [x, y, z, w] = record.rotation;
+  Pose pose(Eigen::Quaterniond(w, x, y, z));
+  pose.translation() = Eigen::Vector3d::Map(record.translation.data());
+  return pose;
+}
+
+}  // namespace
 
 void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_base_sensor,
                     double total, double latency) {
@@ -23,10 +39,19 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.latency = static_cast<float>(latency);
   scans.push_back(record);
 
-  if (scan.located()) poses.push_back({scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()});
+  if (scan.located()) {
+    poses.push_back(recordOf(scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()));
+  }
   if (scan.clock_jumped) ++clock_jumps;
   points += result.points;
   dropped_points += result.dropped;
+}
+
+Trajectory RunRecord::trajectory() const {
+  Trajectory trajectory;
+  trajectory.reserve(poses.size());
+  for (const PoseRecord& record : poses) trajectory.push_back({record.stamp, poseOf(record)});
+  return trajectory;
 }
 
 size_t RunRecord::count(ScanStatus status) const {

@@ -31,11 +31,18 @@ struct ScanRecord {
   float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
 };
 
-/// An account of a run, for its files. Grows by about 200 bytes a scan, without being moved.
+/// A pose in 64 bytes.
+struct PoseRecord {
+  double stamp = 0.0;                   ///< [s]
+  std::array<double, 4> rotation{};     ///< x, y, z, w
+  std::array<double, 3> translation{};  ///< [m]
+};
+
+/// An account of a run, for its files. Grows by 130 bytes a scan, without being moved.
 struct RunRecord {
   std::deque<ScanRecord> scans;
-  std::deque<StampedPose>
-      poses;  ///< T_map_base of the located scans; without a base frame of the sensor
+  /// T_map_base of the located scans; without a base frame of the sensor.
+  std::deque<PoseRecord> poses;
   std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
   size_t clock_jumps = 0;
@@ -49,7 +56,7 @@ struct RunRecord {
            double latency = 0.0);
   size_t count(ScanStatus status) const;
   size_t located() const { return poses.size(); }
-  Trajectory trajectory() const { return {poses.begin(), poses.end()}; }
+  Trajectory trajectory() const;
 };
 
 }  // namespace edgevox
