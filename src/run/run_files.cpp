@@ -166,7 +166,7 @@ void makeFolder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (!error) return;
   throw FileError("cannot make the folder '" + folder.string() + "': " + error.message() +
-                  "; choose another one");
+                  "; choose another output folder");
 }
 
 void writeMap(const fs::path& folder, const OccupiedVoxelMap& map, bool occupied_too) {

@@ -139,8 +139,8 @@ TEST_F(SaveTest, SaysWhatIsWrongWithAFolder) {
   start();
   map(firstScans(2));
   expectRefused("", {"no folder", "parameter output"});
-  expectRefused("maps", {"'maps' is not absolute", "begin it with /"});
-  EXPECT_FALSE(fs::exists("maps"));
+  expectRefused("edgevox_maps", {"'edgevox_maps' is not absolute", "begin it with /"});
+  EXPECT_FALSE(fs::exists("edgevox_maps"));
   std::ofstream(folder_ / "file") << "not a folder";
   const std::string in_a_file = (folder_ / "file").string() + "/maps";
   expectRefused(in_a_file, {in_a_file, "choose another"});

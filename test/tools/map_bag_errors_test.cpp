@@ -92,7 +92,7 @@ TEST_F(MapBagTest, outputThatCannotBeWritten) {
   writeBag({simulatedRun().clouds.front()});
   std::ofstream(folder_ / "file") << "in the way";
   options_.output = folder_ / "file" / "out";
-  expectError<FileError>({options_.output.string(), "--output"});
+  expectError<FileError>({options_.output.string(), "another output folder"});
 }
 
 TEST_F(MapBagTest, badReference) {
