@@ -164,9 +164,10 @@ TEST_F(FramesTest, AMountingThatComesLateIsWaitedFor) {
 }
 
 TEST_F(FramesTest, CanBeUnloadedWhileItWaits) {
-  startWithBase(10.0);
+  startWithBase(10.0);  // the longest there is
   send(scans()[0]);
   send(scans()[1]);
+  ASSERT_TRUE(tells("mapper", [](const Status& s) { return valueOf(s, "received") == "2"; }));
   const ros::WallTime begin = ros::WallTime::now();
   EXPECT_TRUE(unload("mapper"));
   EXPECT_LT((ros::WallTime::now() - begin).toSec(), 5.0);

@@ -180,6 +180,10 @@ TEST_F(OdometryTest, BeginsAnewAfterAReset) {
   publishOdometry(0, kScans);
   map(firstScans(kMiddle));
   call<std_srvs::Trigger>("reset");
+  VoxelScanStamped few = scans()[kMiddle - 1];
+  few.voxels.clear();
+  map({few});
+  EXPECT_EQ(kMiddle, transformsTo("odom").size());  // the correction is forgotten
   const Scans rest(scans().begin() + kMiddle, scans().end());
   map(rest);
   const auto transforms = transformsOf(scans(), kScans);
