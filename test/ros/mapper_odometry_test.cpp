@@ -135,7 +135,7 @@ TEST_F(OdometryTest, ThatNeverComesIsAWarning) {
 }
 
 TEST_F(OdometryTest, OfOneScanMayBeMissing) {
-  startWithOdometry(0.5);
+  startWithOdometry(2.0);
   publishOdometry(0, kMiddle);
   map(firstScans(kMiddle));
   map({scans()[kMiddle]});
