@@ -58,7 +58,7 @@ void label(State& state, const std::string& name) {
 }
 
 ScanSample sampleOf(const Sequence& s, size_t i) {
-  const auto count = static_cast<size_t>(s.config.matcher.refine_points);
+  const size_t count = Matcher(s.config.matcher).sampleSize();
   const Pose T_sensor_map = s.poses[i].inverse();
   ScanSample sample;
   for (const size_t position : sampleVoxels(s.scans[i], count)) {

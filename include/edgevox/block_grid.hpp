@@ -230,6 +230,17 @@ class SlotGrid {
     return set ? block.slot[static_cast<size_t>(Layout::cell(v))] : kNone;
   }
 
+  /// Calls visit(slot) for the voxels of a block in a fixed order.
+  template <typename Visit>
+  void forEachInBlock(size_t block, Visit&& visit) const {
+    const Block& b = blocks_[block];
+    for (size_t row = 0; row < b.occupied.size(); ++row) {
+      for (uint32_t bits = b.occupied[row]; bits != 0; bits &= bits - 1) {
+        visit(b.slot[row * kEdge + static_cast<size_t>(__builtin_ctz(bits))]);
+      }
+    }
+  }
+
   /// BlockTable::kNone if there is none.
   int32_t findBlock(const VoxelIndex& block) const { return table_.find(block); }
   size_t blockCount() const { return table_.size(); }

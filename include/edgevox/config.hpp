@@ -10,7 +10,7 @@ namespace edgevox {
 
 /// Which voxels of the map scans are aligned to.
 enum class Representation {
-  kEdges,   ///< accumulated edges and a thin set of planar anchors
+  kEdges,   ///< flat anchors, spread over space and normals, and edges where they are missing
   kAll,     ///< all occupied voxels
   kRandom,  ///< as many voxels as kEdges has, chosen by hash: the yardstick for kEdges
 };
@@ -43,16 +43,16 @@ struct EdgeConfig {
 
 struct MapConfig {
   Representation representation = Representation::kEdges;
-  int min_hits = 2;              ///< scans that must have hit a voxel for it to count as occupied
-  double anchor_fraction = 0.1;  ///< of the planar voxels, kept beside the edges
-  int label_every = 5;           ///< scans between two labellings
+  int min_hits = 2;     ///< scans that must have hit a voxel for it to count as occupied
+  int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
+  int label_every = 5;  ///< scans between two labellings
 };
 
 struct MatcherConfig {
   MatcherMode mode = MatcherMode::kRefined;
   double coarsest_voxel = 6.4;  ///< of the search, rounded to voxel_size * 2^k [m]
   int search_points = 1000;
-  int refine_points = 3000;
+  int refine_points = 3000;  ///< of those with a voxel of the map beside them
   int restart_points = 300;
   int max_restarts = 60;
   double min_hit_ratio = 0.5;        ///< of an accepted match, before there is a history

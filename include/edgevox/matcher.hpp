@@ -15,7 +15,8 @@ namespace edgevox {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Centroids of a scan in the sensor's frame [m], in an order in which every prefix is spread
-/// over the scan: the search uses the first few of them, the refinement more.
+/// over the scan: the search uses the first few of them, the refinement the first that have a
+/// voxel of the map beside them.
 using ScanSample = std::vector<Eigen::Vector3d>;
 
 struct MatchRequest {
@@ -48,6 +49,10 @@ class Matcher {
  public:
   explicit Matcher(const MatcherConfig& config) : config_(config) {}
 
+  /// How many points a sample should have, and how many of them are verified and, at most, refined.
+  size_t sampleSize() const;
+  size_t refinePoints(const ScanSample& sample) const;
+
   /// From the guess alone, then from restarts around it until one is accepted.
   MatchResult match(const OccupiedVoxelMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
@@ -61,10 +66,10 @@ class Matcher {
   /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set.
   MatchResult refine(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& guess,
                      int coarsest, bool all_voxels) const;
-  /// Fraction of the sample's points in occupied voxels of level 1, of those in occupied voxels
-  /// eight times the finest: points of a place not mapped yet tell nothing. If less than a quarter
-  /// of the sample is known, of that quarter.
-  static double hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
+  /// Of the first `points` of a sample the fraction in occupied voxels of level 1, of those in
+  /// occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If less
+  /// than a quarter of them is known, of that quarter.
+  static double hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
                          const Pose& T_map_sensor);
 
  private:

@@ -41,13 +41,15 @@ class GaussianLevel {
     std::array<float, 3> view{};   ///< sum of the unit vectors to the sensor
     uint32_t count = 0;            ///< centroids
     uint32_t last_scan = 0;
-    uint16_t hits = 0;              ///< scans
-    uint8_t selected_children = 0;  ///< finer voxels that are edges or selected
-    bool kept = false;              ///< an edge or an anchor, or holds one
-    bool stale = false;             ///< changed since its Gaussian was computed
-    bool is_twin = false;           ///< only sums, count and view are its own
-    bool selected = false;          ///< for matching; a twin follows its voxel
+    uint16_t hits = 0;            ///< scans
+    uint8_t edge_children = 0;    ///< finer voxels that are or hold edges
+    int8_t flat_axis = kNotFlat;  ///< as of the last findFlatAxis()
+    bool anchor = false;          ///< see AnchorRule
+    bool stale = false;           ///< changed since its Gaussian was computed
+    bool is_twin = false;         ///< only sums, count and view are its own
+    bool selected = false;        ///< for matching; a twin follows its voxel
   };
+  static constexpr int8_t kNotFlat = -1;
 
   explicit GaussianLevel(double voxel_size) : voxel_size_(voxel_size) {}
 
@@ -60,6 +62,9 @@ class GaussianLevel {
   const VoxelGaussian* nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& to_sensor,
                                bool all, float& distance) const;
 
+  /// Whether nearest() would find a surface there, were it not for the side it faces.
+  bool hasNear(const Eigen::Vector3f& point, bool all) const;
+
   /// The slot of a voxel's cell, which is made if there is none.
   uint32_t slotFor(const VoxelIndex& v);
   /// Adds a centroid of scan `scan` (counted from 1), seen along the unit vector `to_sensor`; true
@@ -71,12 +76,23 @@ class GaussianLevel {
   /// Those of all cells that have changed.
   void updateAll();
   void select(uint32_t slot, bool selected);
+  /// Sets Cell::flat_axis: the axis nearest to the normal if the voxel is flat.
+  void findFlatAxis(uint32_t slot);
 
   uint32_t slotOf(const VoxelIndex& v) const { return grid_.find(v); }
   Cell& cell(uint32_t slot) { return cells_[slot]; }
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
+  /// The block of 8 voxels a side that holds the voxel of a slot.
+  size_t blockOf(uint32_t slot) const {
+    return static_cast<size_t>(grid_.findBlock(Layout::block(voxels_[slot])));
+  }
+  /// Calls visit(slot) for the voxels of a block in a fixed order.
+  template <typename Visit>
+  void forEachInBlock(size_t block, Visit&& visit) const {
+    grid_.forEachInBlock(block, visit);
+  }
   const VoxelGaussian& gaussian(uint32_t slot) const { return gaussians_[slot]; }
   /// Voxels.
   size_t selectedCount() const { return selected_count_; }
@@ -89,6 +105,9 @@ class GaussianLevel {
   using Layout = BlockLayout<8>;
   using Bits = std::array<uint8_t, Layout::kRows>;
 
+  template <typename Visit>
+  bool anyNear(const Eigen::Vector3f& point, const Visit& visit) const;
+  bool isCandidate(size_t block, const VoxelIndex& v, bool all) const;
   const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v,
                                    const Eigen::Vector3f& to_sensor, bool all) const;
   uint32_t newCell(const VoxelIndex& v);
@@ -97,6 +116,7 @@ class GaussianLevel {
   /// What a look at unselected voxels computes must not change where later centroids go: it keeps
   /// the side.
   void update(uint32_t slot, Side side);
+  void dropRepeats();
 
   double voxel_size_;
   SlotGrid<8> grid_;
@@ -105,8 +125,19 @@ class GaussianLevel {
   Pool<Cell> cells_;
   Pool<VoxelIndex> voxels_;
   Pool<VoxelGaussian> gaussians_;
-  std::vector<uint32_t> stale_;  // slots of stale cells, some of them updated since
+  std::vector<uint32_t> stale_;             // slots stale since the last update of any kind
+  std::vector<uint32_t> stale_unselected_;  // before that; some are updated since, or repeated
 };
+
+/// Which voxels stand for a block of 8 voxels a side: of the flat ones `count` for each of three
+/// directions of the normal; where there are fewer than `count` in all, voxels that hold edges make
+/// up for them. Chosen by a hash of the voxel, so that a choice changes little when voxels come.
+struct AnchorRule {
+  int count = 0;
+  int min_hits = 1;
+};
+/// Sets Cell::anchor of the voxels of a block by their Cell::flat_axis, edge_children and hits.
+void chooseAnchors(GaussianLevel& level, size_t block, const AnchorRule& rule);
 
 /// A multi-resolution occupied voxel list (Ryde and Hu 2010). Level k has voxels of
 /// voxel_size * 2^k. Level 0 counts hits and holds the edge labels of the accumulated occupancy;
@@ -168,12 +199,15 @@ class OccupiedVoxelMap {
   void addInside(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   void addHits(const std::vector<Eigen::Vector3d>& centroids);
   void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
+  /// A voxel that has its min_hits.
+  void selectNew(int level, uint32_t slot);
   void markOccupied(const VoxelIndex& v);
-  bool isAnchor(const VoxelIndex& v) const;
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
-  /// One finer voxel of v's became an edge (+1) or stopped being one (-1).
-  void countChild(int level, const VoxelIndex& v, int change);
-  void updateKept(int level, uint32_t slot);
+  /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
+  void countEdge(int level, const VoxelIndex& v, int change);
+  /// The block of this voxel is due for a choice of anchors.
+  void touch(int level, uint32_t slot);
+  void chooseAnchorsAnew();
   void selectRandom();
   GaussianLevel& level(int l) { return gaussians_[static_cast<size_t>(l - 1)]; }
 
@@ -188,7 +222,9 @@ class OccupiedVoxelMap {
   BitGrid<16> edge_voxels_;
   BitGrid<16> changed_;  // hit voxels since the last labelling
   std::vector<GaussianLevel> gaussians_;
-  std::vector<BitGrid<8>> occupied_;        // [0] is not used
+  std::array<std::vector<uint32_t>, kGaussianLevels> touched_;  // slots by level - 1, repeated
+  std::array<double, kGaussianLevels> random_share_{};          // of the voxels of a level
+  std::vector<BitGrid<8>> occupied_;                            // [0] is not used
   std::vector<VoxelIndex> voxels_;          // of the scan being added, at level 0
   std::vector<Eigen::Vector3f> to_sensor_;  // of the same, unit vectors
   std::vector<uint32_t> slots_;             // of the same, at one level

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -76,6 +77,11 @@ inline uint64_t mixBits(uint64_t v) {
 }
 
 inline uint64_t voxelHash(const VoxelIndex& v) { return mixBits(packedIndex(v)); }
+
+/// In [0, 1), the same for a voxel at all times.
+inline double lotOf(const VoxelIndex& v) {
+  return std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53);
+}
 
 /// One occupied voxel of a scan, in the frame of the cloud.
 struct ScanVoxel {

@@ -42,11 +42,12 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"edges/instruction_set", choiceOf(c.edges.instruction_set, {"auto", "portable", "avx2"}), 0,
        0, "", "results do not depend on it"},
       {"map/representation", choiceOf(c.map.representation, {"edges", "all", "random"}), 0, 0, "",
-       "voxels that scans are aligned to: edges and planar anchors, all, or as many as edges by "
-       "chance"},
+       "voxels that scans are aligned to: planar anchors and, where these are missing, edges; all; "
+       "or as many as of the first by chance"},
       {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},
-      {"map/anchor_fraction", &c.map.anchor_fraction, 0, 1, "",
-       "share of the planar voxels kept beside the edges"},
+      {"map/anchors", &c.map.anchors, 0, 1000, "",
+       "planar voxels of each of three directions that scans are aligned to in a cube of 16 "
+       "voxels"},
       {"map/label_every", &c.map.label_every, 1, 100, "",
        "scans between two labellings of the map"},
       {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
@@ -56,7 +57,7 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"matcher/search_points", &c.matcher.search_points, 50, kMaxCount, "",
        "points of a scan in the search"},
       {"matcher/refine_points", &c.matcher.refine_points, 50, kMaxCount, "",
-       "points of a scan in the refinement"},
+       "points of a scan in the refinement, of those with a voxel of the map beside them"},
       {"matcher/restart_points", &c.matcher.restart_points, 50, kMaxCount, "",
        "points of a scan in a restart"},
       {"matcher/max_restarts", &c.matcher.max_restarts, 0, 10000, "",

@@ -13,8 +13,10 @@ namespace {
 constexpr double kSensorSigma = 0.02;  // [m]
 constexpr double kVoxelSigma = 0.3;    // [voxel]; spread assumed where few points tell
 constexpr double kPriorWeight = 2.0;   // [centroids]
-constexpr double kAlongShare = 0.1;    // of the information along a surface that is used
+constexpr double kAlong = 0.1;         // of the information along a surface that is used, at most
 constexpr double kFlat = 0.1;          // of the variance at most across a flat voxel
+constexpr double kPatch = 0.3;         // middle / largest variance of a full patch of surface
+constexpr double kLeastPatch = 0.1;    // share of a patch that an anchor needs
 constexpr double kBehind = 0.02;       // cosine to the normal of a surface seen from behind
 constexpr double kOpposite = 0.3;      // cosine between views of two sides of anything else
 
@@ -53,48 +55,71 @@ Eigen::Matrix3d symmetric(const std::array<float, 6>& m) {
   return out;
 }
 
-/// Across the surface all of the information, along it only a share: where a voxel is cut off by
-/// the rim of the view its narrow extent would else fake a position.
-Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, Eigen::Matrix3d& across) {
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  const ExtremeEigenvalues e(covariance);
-  const double middle = covariance.trace() - e.least - e.greatest;
-  const double spread = e.greatest - e.least;
-  across.setZero();
-  if (!(spread > 1e-4 * e.greatest)) return across;
-  across = (covariance - middle * identity) * (covariance - e.greatest * identity) /
-           (e.least * middle * spread);
-  return kAlongShare * (covariance.inverse() - identity / e.greatest) + (1 - kAlongShare) * across;
-}
-
-/// See VoxelGaussian::side: the normal turned to the viewer where the voxel is flat, the mean
-/// viewing direction elsewhere.
-Eigen::Vector3f sideOf(const Eigen::Matrix3d& covariance, const Eigen::Matrix3d& across,
-                       const Eigen::Vector3d& view) {
-  Eigen::Index axis = 0;
-  across.diagonal().maxCoeff(&axis);
-  const Eigen::Vector3d normal = across.col(axis).normalized();
-  const double thickness = normal.dot(covariance * normal);
-  const bool flat = across.trace() > 0 && thickness < kFlat * covariance.trace();
-  if (!flat) return (view.normalized() / kOpposite).cast<float>();
-  return (normal * (normal.dot(view) < 0 ? -1.0 : 1.0) / kBehind).cast<float>();
-}
-
-VoxelGaussian gaussianOf(const GaussianLevel::Cell& cell, const VoxelIndex& v, double size) {
+Eigen::Matrix3d covarianceOf(const GaussianLevel::Cell& cell, double size) {
   const double n = cell.count;
   const Eigen::Vector3d sum(cell.sum[0], cell.sum[1], cell.sum[2]);
   const Eigen::Matrix3d scatter = symmetric(cell.outer) - sum * sum.transpose() / n;
   const double prior = kPriorWeight * kVoxelSigma * kVoxelSigma * size * size;
-  const Eigen::Matrix3d covariance =
-      (scatter + prior * Eigen::Matrix3d::Identity()) / (n + kPriorWeight) +
-      kSensorSigma * kSensorSigma * Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d across;
-  const Eigen::Matrix3f w = informationOf(covariance, across).cast<float>();
+  return (scatter + prior * Eigen::Matrix3d::Identity()) / (n + kPriorWeight) +
+         kSensorSigma * kSensorSigma * Eigen::Matrix3d::Identity();
+}
+
+/// The surface that a covariance shows.
+struct Surface {
+  double greatest;         // eigenvalue
+  Eigen::Matrix3d across;  // the information across the surface; zero if there is no surface
+  Eigen::Index axis = 0;   // nearest to the normal
+  Eigen::Vector3d normal;
+  double thickness;  // variance along the normal, of all
+  double patch;      // 1 for a patch of surface, 0 for a line, as one ring of a lidar draws it: the
+                     // normal of a line is any
+  bool flat;
+
+  explicit Surface(const Eigen::Matrix3d& covariance) {
+    const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+    const ExtremeEigenvalues e(covariance);
+    const double middle = covariance.trace() - e.least - e.greatest;
+    const double spread = e.greatest - e.least;
+    greatest = e.greatest;
+    across.setZero();
+    if (spread > 1e-4 * e.greatest) {
+      across = (covariance - middle * identity) * (covariance - e.greatest * identity) /
+               (e.least * middle * spread);
+    }
+    across.diagonal().maxCoeff(&axis);
+    normal = across.col(axis).normalized();
+    thickness = e.least / covariance.trace();
+    flat = across.trace() > 0 && thickness < kFlat;
+    const double width = middle / e.greatest / kPatch;
+    patch = std::min(1.0, width * width);
+  }
+};
+
+/// Across the surface all of the information, along it only a share: the extent of what was seen
+/// of a voxel would else fake a position, most of all in a corridor, where many flat voxels that
+/// tell nothing outvote the few that do.
+Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, const Surface& surface) {
+  const double share = std::min(kAlong, surface.thickness * surface.thickness / kFlat);
+  const Eigen::Matrix3d all = covariance.inverse() - Eigen::Matrix3d::Identity() / surface.greatest;
+  return share * all + (1 - share) * surface.patch * surface.across;
+}
+
+/// See VoxelGaussian::side: the normal turned to the viewer where the voxel is flat, the mean
+/// viewing direction elsewhere.
+Eigen::Vector3f sideOf(const Surface& surface, const Eigen::Vector3d& view) {
+  if (!surface.flat) return (view.normalized() / kOpposite).cast<float>();
+  return (surface.normal * (surface.normal.dot(view) < 0 ? -1.0 : 1.0) / kBehind).cast<float>();
+}
+
+VoxelGaussian gaussianOf(const GaussianLevel::Cell& cell, const VoxelIndex& v, double size) {
+  const Eigen::Vector3d sum(cell.sum[0], cell.sum[1], cell.sum[2]);
+  const Eigen::Matrix3d covariance = covarianceOf(cell, size);
+  const Surface surface(covariance);
+  const Eigen::Matrix3f w = informationOf(covariance, surface).cast<float>();
   VoxelGaussian gaussian;
-  gaussian.mean = (voxelCentre(v, size) + sum / n).cast<float>();
+  gaussian.mean = (voxelCentre(v, size) + sum / cell.count).cast<float>();
   gaussian.information = {w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(1, 2), w(2, 0)};
-  gaussian.side =
-      sideOf(covariance, across, Eigen::Vector3d(cell.view[0], cell.view[1], cell.view[2]));
+  gaussian.side = sideOf(surface, Eigen::Vector3d(cell.view[0], cell.view[1], cell.view[2]));
   return gaussian;
 }
 
@@ -107,37 +132,56 @@ float squaredDistance(const VoxelGaussian& g, const Eigen::Vector3f& point) {
 
 }  // namespace
 
-const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point,
-                                            const Eigen::Vector3f& to_sensor, bool all,
-                                            float& distance) const {
+/// Calls visit(block, voxel) for the voxel of `point` and its six neighbours, where there is a
+/// block, until one returns true.
+template <typename Visit>
+bool GaussianLevel::anyNear(const Eigen::Vector3f& point, const Visit& visit) const {
   static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const VoxelIndex centre = voxelAt(point, 1.0 / voxel_size_);
   const VoxelIndex centre_block = Layout::block(centre);
   const int32_t block = grid_.findBlock(centre_block);
-  const VoxelGaussian* best = nullptr;
-  distance = std::numeric_limits<float>::infinity();
   for (const auto& offset : kOffsets) {
     const VoxelIndex v{centre.x + offset[0], centre.y + offset[1], centre.z + offset[2]};
     const VoxelIndex v_block = Layout::block(v);
-    const int32_t slot = v_block == centre_block ? block : grid_.findBlock(v_block);
-    if (slot == BlockTable::kNone) continue;
-    const VoxelGaussian* candidate = findInBlock(static_cast<size_t>(slot), v, to_sensor, all);
-    if (candidate == nullptr) continue;
+    const int32_t found = v_block == centre_block ? block : grid_.findBlock(v_block);
+    if (found != BlockTable::kNone && visit(static_cast<size_t>(found), v)) return true;
+  }
+  return false;
+}
+
+bool GaussianLevel::isCandidate(size_t block, const VoxelIndex& v, bool all) const {
+  const auto row = static_cast<size_t>(Layout::row(v));
+  const auto& bits = all ? grid_.block(block).occupied : selected_[block];
+  return ((bits[row] >> Layout::column(v)) & 1) != 0;
+}
+
+bool GaussianLevel::hasNear(const Eigen::Vector3f& point, bool all) const {
+  return anyNear(point,
+                 [&](size_t block, const VoxelIndex& v) { return isCandidate(block, v, all); });
+}
+
+const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point,
+                                            const Eigen::Vector3f& to_sensor, bool all,
+                                            float& distance) const {
+  const VoxelGaussian* best = nullptr;
+  distance = std::numeric_limits<float>::infinity();
+  anyNear(point, [&](size_t block, const VoxelIndex& v) {
+    const VoxelGaussian* candidate = findInBlock(block, v, to_sensor, all);
+    if (candidate == nullptr) return false;
     const float d = squaredDistance(*candidate, point);
     if (d < distance) {
       distance = d;
       best = candidate;
     }
-  }
+    return false;
+  });
   return best;
 }
 
 const VoxelGaussian* GaussianLevel::findInBlock(size_t block, const VoxelIndex& v,
                                                 const Eigen::Vector3f& to_sensor, bool all) const {
-  const auto row = static_cast<size_t>(Layout::row(v));
-  const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-  if (((bits[row] >> Layout::column(v)) & 1) == 0) return nullptr;
+  if (!isCandidate(block, v, all)) return nullptr;
   const auto& gaussian = gaussians_[grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))]];
   if (!gaussian.facesAway(to_sensor)) return &gaussian;
   return gaussian.twin == VoxelGaussian::kNoTwin ? nullptr : &gaussians_[gaussian.twin];
@@ -207,20 +251,32 @@ void GaussianLevel::update(uint32_t slot, Side side) {
 }
 
 void GaussianLevel::updateSelected() {
-  const auto keep = std::remove_if(stale_.begin(), stale_.end(), [this](uint32_t slot) {
-    if (!cells_[slot].stale) return true;
-    if (!cells_[slot].selected) return false;
-    update(slot, Side::kRefresh);
-    return true;
-  });
-  stale_.erase(keep, stale_.end());
+  for (const uint32_t slot : stale_) {
+    if (!cells_[slot].stale) continue;
+    if (cells_[slot].selected) {
+      update(slot, Side::kRefresh);
+    } else {
+      stale_unselected_.push_back(slot);
+    }
+  }
+  stale_.clear();
+  if (stale_unselected_.size() > 2 * size()) dropRepeats();
+}
+
+void GaussianLevel::dropRepeats() {
+  auto& slots = stale_unselected_;
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
 void GaussianLevel::updateAll() {
-  for (const uint32_t slot : stale_) {
-    if (cells_[slot].stale) update(slot, Side::kKeep);
+  for (const auto* slots : {&stale_, &stale_unselected_}) {
+    for (const uint32_t slot : *slots) {
+      if (cells_[slot].stale) update(slot, Side::kKeep);
+    }
   }
   stale_.clear();
+  stale_unselected_.clear();
 }
 
 void GaussianLevel::select(uint32_t slot, bool selected) {
@@ -234,6 +290,12 @@ void GaussianLevel::select(uint32_t slot, bool selected) {
     cells_[side].selected = selected;
     if (selected) update(side, Side::kRefresh);
   }
+}
+
+void GaussianLevel::findFlatAxis(uint32_t slot) {
+  const Surface surface(covarianceOf(cells_[slot], voxel_size_));
+  const bool anchors = surface.flat && surface.patch > kLeastPatch;
+  cells_[slot].flat_axis = anchors ? static_cast<int8_t>(surface.axis) : kNotFlat;
 }
 
 size_t GaussianLevel::selectedGaussians() const {

@@ -127,8 +127,7 @@ void Mapper::forgetMotion() {
 /// Deskews by the predicted motion, matches; once more by the motion that the match has shown.
 void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
                    ScanResult& result) {
-  const auto count = std::max(config_.matcher.search_points, config_.matcher.refine_points);
-  const auto positions = sampleVoxels(scan, static_cast<size_t>(count));
+  const auto positions = sampleVoxels(scan, matcher_.sampleSize());
   const Pose guess = predict(now);
   const bool has_odom = last_ && now.T_odom_sensor && last_->T_odom_sensor;
   Twist twist = has_odom ? twistTo(now.time, guess) : twist_in_sweep_;
@@ -189,7 +188,7 @@ MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double t
   request.farthest = kFarthest + kFastest * since_last;
   request.widest = kWidest + kFastestTurn * since_last;
   request.seed = uint64_t{map_.scans()} << 32 | lost_in_a_row_;
-  const double range = medianRange(sample, sample.size());
+  const double range = medianRange(sample, matcher_.refinePoints(sample));
   const bool published = config_.matcher.mode == MatcherMode::kPublished;
 
   result.status = ScanStatus::kTracked;

@@ -13,10 +13,12 @@
 namespace edgevox {
 namespace {
 
-constexpr double kRestartDistance = 1.0;               // [m]
+constexpr int kCandidates = 4;            // for each point refined: most have no anchor beside them
+constexpr double kRestartDistance = 1.0;  // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
 constexpr double kTrustedStep = 1.0;                   // of a refinement alone [voxel of level 1]
-constexpr double kLeastKnown = 0.25;                   // of a sample
+constexpr double kNearStep = 0.25;    // after which other points may be near [voxel]
+constexpr double kLeastKnown = 0.25;  // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
 constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
@@ -128,11 +130,23 @@ double largestStep(const Pose& from, const Pose& to, double range) {
   return std::max(change.translation().norm(), rotationAngle(change) * range);
 }
 
-NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, size_t count,
-                          const Pose& pose, bool all_voxels) {
+/// The first `wanted` points of the sample that have a voxel to match at this pose.
+ScanSample pointsNear(const GaussianLevel& level, const ScanSample& sample, size_t wanted,
+                      const Pose& pose, bool all_voxels) {
+  ScanSample near;
+  near.reserve(wanted);
+  for (const Eigen::Vector3d& point : sample) {
+    if (near.size() == wanted) break;
+    if (level.hasNear((pose * point).cast<float>(), all_voxels)) near.push_back(point);
+  }
+  return near;
+}
+
+NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, const Pose& pose,
+                          bool all_voxels) {
   NormalEquations equations;
-  for (size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d lever = pose.linear() * sample[i];
+  for (const Eigen::Vector3d& scan_point : sample) {
+    const Eigen::Vector3d lever = pose.linear() * scan_point;
     const Eigen::Vector3d point = pose.translation() + lever;
     float distance = 0;
     const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
@@ -173,6 +187,14 @@ double medianRange(const ScanSample& sample, size_t count) {
   return *middle;
 }
 
+size_t Matcher::sampleSize() const {
+  return static_cast<size_t>(std::max(config_.search_points, kCandidates * config_.refine_points));
+}
+
+size_t Matcher::refinePoints(const ScanSample& sample) const {
+  return prefix(sample, static_cast<size_t>(config_.refine_points));
+}
+
 MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
@@ -195,7 +217,7 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
   };
   result = refineFrom(request.guess);
   const double step =
-      largestStep(request.guess, result.T_map_sensor, medianRange(sample, sample.size()));
+      largestStep(request.guess, result.T_map_sensor, medianRange(sample, refinePoints(sample)));
   if (result.accepted && result.hit_ratio >= request.trusted_hit_ratio &&
       step < kTrustedStep * map.voxelSize(1)) {
     return result;
@@ -213,7 +235,7 @@ MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sam
   const double distance = std::max(moved.translation().norm() / request.farthest,
                                    rotationAngle(moved) / request.widest);
   const double required = distance > 0.5 ? request.far_hit_ratio : request.required_hit_ratio;
-  result.hit_ratio = hitRatio(map, sample, result.T_map_sensor);
+  result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
   result.accepted = distance <= 1.0 && result.hit_ratio >= required;
   return result;
 }
@@ -266,13 +288,21 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
   MatchResult result;
   Pose& pose = result.T_map_sensor;
   pose = guess;
-  const size_t count = prefix(sample, static_cast<size_t>(config_.refine_points));
+  const size_t wanted = refinePoints(sample);
+  if (wanted == 0) return result;
+  const double range = medianRange(sample, wanted);
   for (int level = coarsest; level >= 1; --level) {
+    ScanSample near;
+    Pose near_pose;
     for (int step = 0; step < kRefineSteps[level]; ++step) {
-      const auto equations = linearise(map.gaussians(level), sample, count, pose, all_voxels);
+      if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {
+        near = pointsNear(map.gaussians(level), sample, wanted, pose, all_voxels);
+        near_pose = pose;
+      }
+      const auto equations = linearise(map.gaussians(level), near, pose, all_voxels);
       result.matches = equations.matches;
       result.information = equations.h;
-      result.fit = equations.weight / static_cast<double>(count);
+      result.fit = equations.weight / static_cast<double>(wanted);
       if (equations.matches < 6) break;
       const Move move = -equations.h.ldlt().solve(equations.b);
       if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
@@ -310,13 +340,14 @@ Pose Matcher::climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sa
   return pose;
 }
 
-double Matcher::hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample,
+double Matcher::hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
                          const Pose& T_map_sensor) {
-  if (sample.empty()) return 0.0;
+  const size_t count = prefix(sample, points);
+  if (count == 0) return 0.0;
   const int known_level = std::min(kKnownLevel, map.levels() - 1);
-  const int hits = score(map, 1, sample, sample.size(), T_map_sensor);
-  const int known = score(map, known_level, sample, sample.size(), T_map_sensor);
-  const double least = kLeastKnown * static_cast<double>(sample.size());
+  const int hits = score(map, 1, sample, count, T_map_sensor);
+  const int known = score(map, known_level, sample, count, T_map_sensor);
+  const double least = kLeastKnown * static_cast<double>(count);
   return static_cast<double>(hits) / std::max(static_cast<double>(known), least);
 }
 

@@ -12,10 +12,17 @@ namespace {
 
 constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
 constexpr size_t kGaussianBytes = 48;
+constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
 
 int levelCount(double voxel_size, double coarsest_voxel) {
   const int coarsest = static_cast<int>(std::lround(std::log2(coarsest_voxel / voxel_size)));
   return std::max(coarsest, OccupiedVoxelMap::kGaussianLevels) + 1;
+}
+
+template <typename T>
+void sortUnique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 /// Blocks of 8 voxels a side that hold a bit; a block of 16 counts as those of its eighths.
@@ -84,8 +91,7 @@ void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids,
                    return (sensor - c).cast<float>().normalized();
                  });
   addHits(centroids);
-  // Parents first: a voxel that is kept counts in its parent.
-  for (int l = kGaussianLevels; l >= 1; --l) addMoments(l, centroids);
+  for (int l = 1; l <= kGaussianLevels; ++l) addMoments(l, centroids);
   for (GaussianLevel& g : gaussians_) g.updateSelected();
 }
 
@@ -116,17 +122,27 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
 
 void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids) {
   GaussianLevel& g = level(l);
-  const bool all = config_.representation == Representation::kAll;
   for (size_t i = 0; i < voxels_.size(); ++i) {
     const VoxelIndex v = coarser(voxels_[i], l);
     slots_[i] = g.slotFor(v);
     if (l == 1 && g.cell(slots_[i]).hits == 0) markOccupied(v);
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    const bool hit = g.add(slots_[i], centroids[i], to_sensor_[i], scans_);
-    if (!hit || g.cell(slots_[i]).hits != config_.min_hits) continue;
-    if (all) g.select(slots_[i], true);
-    if (!all && !g.cell(slots_[i]).kept) updateKept(l, slots_[i]);
+    if (!g.add(slots_[i], centroids[i], to_sensor_[i], scans_)) continue;
+    touch(l, slots_[i]);
+    if (g.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
+  }
+}
+
+void OccupiedVoxelMap::selectNew(int l, uint32_t slot) {
+  GaussianLevel& g = level(l);
+  if (config_.representation == Representation::kAll) g.select(slot, true);
+  if (config_.representation == Representation::kEdges) {
+    g.cell(slot).anchor = lotOf(g.voxel(slot)) < kNewShare;
+    g.select(slot, g.cell(slot).anchor);
+  }
+  if (config_.representation == Representation::kRandom) {
+    g.select(slot, lotOf(g.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
   }
 }
 
@@ -136,28 +152,41 @@ void OccupiedVoxelMap::markOccupied(const VoxelIndex& v) {
   }
 }
 
-bool OccupiedVoxelMap::isAnchor(const VoxelIndex& v) const {
-  return std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53) < config_.anchor_fraction;
-}
-
-void OccupiedVoxelMap::updateKept(int l, uint32_t slot) {
-  GaussianLevel& g = level(l);
-  GaussianLevel::Cell& cell = g.cell(slot);
-  const VoxelIndex v = g.voxel(slot);
-  const bool anchor = l == 1 && cell.hits >= config_.min_hits && isAnchor(v);
-  const bool kept = cell.selected_children > 0 || anchor;
-  if (kept == cell.kept) return;
-  cell.kept = kept;
-  if (config_.representation == Representation::kEdges) g.select(slot, kept);
-  if (l < kGaussianLevels) countChild(l + 1, coarser(v, 1), kept ? 1 : -1);
-}
-
-void OccupiedVoxelMap::countChild(int l, const VoxelIndex& v, int change) {
+void OccupiedVoxelMap::countEdge(int l, const VoxelIndex& v, int change) {
   GaussianLevel& g = level(l);
   const uint32_t slot = g.slotOf(v);
-  auto& children = g.cell(slot).selected_children;
+  auto& children = g.cell(slot).edge_children;
+  const bool held = children != 0;
   children = static_cast<uint8_t>(children + change);
-  updateKept(l, slot);
+  if (held == (children != 0)) return;
+  touch(l, slot);
+  if (l < kGaussianLevels) countEdge(l + 1, coarser(v, 1), change);
+}
+
+void OccupiedVoxelMap::touch(int l, uint32_t slot) {
+  if (config_.representation == Representation::kAll) return;
+  touched_[static_cast<size_t>(l - 1)].push_back(slot);
+}
+
+void OccupiedVoxelMap::chooseAnchorsAnew() {
+  for (int l = 1; l <= kGaussianLevels; ++l) {
+    GaussianLevel& g = level(l);
+    auto& slots = touched_[static_cast<size_t>(l - 1)];
+    sortUnique(slots);
+    std::vector<size_t> blocks(slots.size());
+    for (size_t i = 0; i < slots.size(); ++i) {
+      if (g.cell(slots[i]).hits >= config_.min_hits) g.findFlatAxis(slots[i]);
+      blocks[i] = g.blockOf(slots[i]);
+    }
+    slots.clear();
+    sortUnique(blocks);
+    const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
+    for (const size_t block : blocks) {
+      chooseAnchors(g, block, {count, config_.min_hits});
+      if (config_.representation != Representation::kEdges) continue;
+      g.forEachInBlock(block, [&](uint32_t slot) { g.select(slot, g.cell(slot).anchor); });
+    }
+  }
 }
 
 void OccupiedVoxelMap::label() {
@@ -171,6 +200,7 @@ void OccupiedVoxelMap::label() {
   }
   labeller_.label(hit_voxels_, targets, edge_voxels_);
   changeEdges(targets, before);
+  chooseAnchorsAnew();
   if (config_.representation == Representation::kRandom) selectRandom();
 }
 
@@ -184,26 +214,27 @@ void OccupiedVoxelMap::changeEdges(const BitGrid<16>& targets,
       differs[row] = static_cast<uint16_t>(now[row] ^ before[slot][row]);
     }
     BitGrid<16>::forEachInBlock(block, differs, [&](const VoxelIndex& v) {
-      countChild(1, coarser(v, 1), edge_voxels_.test(v) ? 1 : -1);
+      countEdge(1, coarser(v, 1), edge_voxels_.test(v) ? 1 : -1);
     });
   }
 }
 
 void OccupiedVoxelMap::selectRandom() {
-  for (GaussianLevel& g : gaussians_) {
-    size_t kept = 0;
+  for (int l = 1; l <= kGaussianLevels; ++l) {
+    GaussianLevel& g = level(l);
+    size_t anchors = 0;
     size_t candidates = 0;
     for (uint32_t slot = 0; slot < g.size(); ++slot) {
       if (g.cell(slot).is_twin) continue;
-      kept += g.cell(slot).kept ? 1 : 0;
+      anchors += g.cell(slot).anchor ? 1 : 0;
       candidates += g.cell(slot).hits >= config_.min_hits ? 1 : 0;
     }
-    const double fraction = static_cast<double>(kept) / static_cast<double>(candidates);
+    double& share = random_share_[static_cast<size_t>(l - 1)];
+    share = static_cast<double>(anchors) / static_cast<double>(candidates);
     for (uint32_t slot = 0; slot < g.size(); ++slot) {
-      if (g.cell(slot).is_twin) continue;
-      const VoxelIndex& v = g.voxel(slot);
-      const bool chosen = std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53) < fraction;
-      g.select(slot, chosen && g.cell(slot).hits >= config_.min_hits);
+      const GaussianLevel::Cell& cell = g.cell(slot);
+      if (!cell.is_twin)
+        g.select(slot, cell.hits >= config_.min_hits && lotOf(g.voxel(slot)) < share);
     }
   }
 }
@@ -221,6 +252,8 @@ void OccupiedVoxelMap::clear() {
   hit_voxels_ = {};
   edge_voxels_ = {};
   changed_ = {};
+  touched_ = {};
+  random_share_ = {};
   gaussians_.clear();
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
   occupied_ = std::vector<BitGrid<8>>(level_count);

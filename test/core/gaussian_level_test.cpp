@@ -32,13 +32,14 @@ struct Gaussian {
   Vector3d mean = Vector3d::Zero();
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  ///< of the covariance
   Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();       ///< all of it across the surface, a quarter along it
+      Eigen::Matrix3d::Zero();       ///< all of it across the surface, a share along it
   Vector3d side = Vector3d::Zero();  ///< seen from behind where its product with a view is below -1
 };
 
 /// C = (S + 2 (.3 r)^2 I) / (n + 2) + (2 cm)^2 I with the eigenvalues s <= m <= l and n that of s:
-/// W = 0.1 (C^-1 - I/l) + 0.9 (1/s - 1/m) n n^T. Flat (s < a tenth of the trace): seen from behind
-/// from a cosine of -0.02 to the normal on; else from one of -0.3 to the mean view.
+/// W = a (C^-1 - I/l) + (1 - a) b (1/s - 1/m) n n^T. b = (m / 0.3 l)^2, at most 1; a = 10 (s /
+/// trace)^2, at most 0.1. Flat (s < a tenth of the trace): seen from behind from a cosine of -0.02
+/// to the normal on; else from one of -0.3 to the mean view.
 Gaussian gaussianOf(const Centroids& centroids, const Centroids& views, double size) {
   const auto count = static_cast<double>(centroids.size());
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
@@ -54,11 +55,14 @@ Gaussian gaussianOf(const Centroids& centroids, const Centroids& views, double s
   const Vector3d& values = solver.eigenvalues();
   const Vector3d normal = solver.eigenvectors().col(0);
   gaussian.inverse = covariance.inverse();
-  gaussian.information = (gaussian.inverse - identity / values[2]) / 10 +
-                         0.9 * (1 / values[0] - 1 / values[1]) * normal * normal.transpose();
+  const bool flat = values[0] < 0.1 * values.sum();
+  const double patch = std::min(1.0, std::pow(values[1] / values[2] / 0.3, 2));
+  const double share = std::min(0.1, 10 * std::pow(values[0] / values.sum(), 2));
+  gaussian.information =
+      share * (gaussian.inverse - identity / values[2]) +
+      (1 - share) * patch * (1 / values[0] - 1 / values[1]) * normal * normal.transpose();
   Vector3d view = Vector3d::Zero();
   for (const Vector3d& v : views) view += v;
-  const bool flat = values[0] < 0.1 * values.sum();
   gaussian.side = flat ? Vector3d(normal * (normal.dot(view) < 0 ? -1 : 1) / 0.02)
                        : Vector3d(view.normalized() / 0.3);
   return gaussian;
