@@ -32,6 +32,7 @@ int run(int argc, char** argv) {
     addMapBenchmarks(name);
     addRegistrationBenchmarks(name);
   }
+  addLimitBenchmarks();
   RatioReporter reporter;
   if (benchmark::RunSpecifiedBenchmarks(&reporter) != 0) reporter.printTables(names);
   return 0;

@@ -30,6 +30,24 @@ constexpr Ratio kRatios[] = {
     {"pcl_gicp_raw", "pipeline", 5},
 };
 
+/// A median time.
+struct Limit {
+  const char* row;
+  const char* on;
+  double most;  // [ms]; 0: only shown
+};
+constexpr Limit kLimits[] = {
+    {"voxelize", "100k_points", 1},
+    {"extract", "100k_points_10cm", 4},
+    {"extract", "100k_points_5cm", 10},
+    {"label", "map_100k", 5},
+    {"label", "map_1M", 5},
+    {"label", "map_10M", 5},
+    {"insert", "map_100k", 0},
+    {"insert", "map_1M", 0},
+    {"insert", "map_10M", 0},
+};
+
 void printHeader(const char* title, const std::vector<std::string>& sequences) {
   std::printf("\n%-30s", title);
   for (const std::string& sequence : sequences) std::printf("%14s", sequence.c_str());
@@ -94,6 +112,19 @@ void RatioReporter::printTables(const std::vector<std::string>& sequences) const
       printValue(value);
     }
     std::printf("%s\n", verdict(least, r.claim).c_str());
+  }
+  printLimits();
+}
+
+void RatioReporter::printLimits() const {
+  printHeader("median CPU time [ms]", {"", "limit"});
+  for (const Limit& limit : kLimits) {
+    const double value = median(limit.row, limit.on);
+    std::printf("%-30s", (std::string(limit.row) + " " + limit.on).c_str());
+    printValue(value);
+    const bool judged = limit.most != 0 && !std::isnan(value);
+    if (judged) printValue(limit.most);
+    std::printf("%s\n", !judged ? "" : value <= limit.most ? "  holds" : "  FAILS");
   }
 }
 

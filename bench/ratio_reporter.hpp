@@ -23,6 +23,7 @@ class RatioReporter : public benchmark::ConsoleReporter {
  private:
   /// Median CPU time of an iteration [ms]; NaN if it has not run.
   double median(const std::string& row, const std::string& sequence) const;
+  void printLimits() const;
   double ratio(const std::string& slow, const std::string& fast, const std::string& sequence) const;
 
   std::map<std::string, std::vector<double>> times_;  // by name

@@ -45,29 +45,6 @@ fs::path bagOf(const Source& source) {
          (std::string(source.name) + ".bag");
 }
 
-Cloud cloudOf(const sim::Scan& scan) {
-  struct Point {
-    float x, y, z, time;
-  };
-  Cloud cloud;
-  cloud.bytes.resize(scan.size() * sizeof(Point));
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f& p = scan.points[i];
-    const Point point{p.x(), p.y(), p.z(), scan.times[i]};
-    std::memcpy(&cloud.bytes[i * sizeof(Point)], &point, sizeof(Point));
-  }
-  cloud.view.stamp = scan.stamp;
-  cloud.view.frame = "lidar";
-  cloud.view.data = cloud.bytes.data();
-  cloud.view.width = scan.size();
-  cloud.view.height = 1;
-  cloud.view.point_step = sizeof(Point);
-  cloud.view.row_step = cloud.bytes.size();
-  cloud.view.time.present = true;
-  cloud.view.time.offset = offsetof(Point, time);
-  return cloud;
-}
-
 std::vector<Cloud> simulate(const Source& source) {
   const sim::Sensor sensor = sim::makeSensor(source.sensor);
   const sim::World world = sim::makeWorld(source.world, 1);
@@ -145,6 +122,29 @@ Sequence make(const Source& source) {
 }
 
 }  // namespace
+
+Cloud cloudOf(const sim::Scan& scan) {
+  struct Point {
+    float x, y, z, time;
+  };
+  Cloud cloud;
+  cloud.bytes.resize(scan.size() * sizeof(Point));
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f& p = scan.points[i];
+    const Point point{p.x(), p.y(), p.z(), scan.times[i]};
+    std::memcpy(&cloud.bytes[i * sizeof(Point)], &point, sizeof(Point));
+  }
+  cloud.view.stamp = scan.stamp;
+  cloud.view.frame = "lidar";
+  cloud.view.data = cloud.bytes.data();
+  cloud.view.width = scan.size();
+  cloud.view.height = 1;
+  cloud.view.point_step = sizeof(Point);
+  cloud.view.row_step = cloud.bytes.size();
+  cloud.view.time.present = true;
+  cloud.view.time.offset = offsetof(Point, time);
+  return cloud;
+}
 
 std::vector<std::string> sequenceNames() {
   std::vector<std::string> names;

@@ -10,6 +10,7 @@
 
 #include "edgevox/config.hpp"
 #include "edgevox/voxelizer.hpp"
+#include "sim/scanner.hpp"
 
 namespace edgevox::bench {
 
@@ -18,6 +19,8 @@ struct Cloud {
   std::vector<uint8_t> bytes;
   CloudView view;
 };
+
+Cloud cloudOf(const sim::Scan& scan);
 
 /// Consecutive clouds of a moving sensor, and what the pipeline made of them. The first half
 /// builds a map; the second half is what is timed.
