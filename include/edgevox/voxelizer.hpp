@@ -59,28 +59,56 @@ class Voxelizer {
  private:
   using Layout = BlockLayout<16>;
 
-  /// A point of the cloud on its way to its voxel.
-  struct Point {
+  static constexpr uint16_t kNoSum = 0xffff;
+
+  /// Points in sequence that fell into one block; it ends where the next one begins.
+  struct Run {
     uint32_t block;
-    uint32_t cell;
-    Eigen::Vector3f offset;  ///< from the voxel's lower corner [m]
-    float time;              ///< from the stamp [s]
+    uint32_t begin;
   };
 
-  template <typename Coordinate, bool kHasTime>
+  /// Of points_.
+  struct Span {
+    uint32_t begin;
+    uint32_t end;
+  };
+
+  /// The points of a voxel.
+  struct Sum {
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();  ///< as in points_
+    uint32_t cell = 0;
+    uint32_t count = 0;
+  };
+
+  class Writer;
+
+  template <typename Coordinate>
+  void readCloud(const CloudView& cloud, VoxelScan& scan);
+  template <typename Coordinate, typename Time>
   void readPoints(const CloudView& cloud, VoxelScan& scan);
   void countDropped(const Eigen::Vector3d& point, DroppedPoints& dropped) const;
-  void sortByBlock();
+  uint32_t slotOf(const VoxelIndex& block);
+  void sortRuns();
   void collect(VoxelScan& scan);
+  void sumPoints(const Span& span);
+  void finishBlock(const VoxelIndex& block, VoxelScan& scan);
 
   VoxelizerConfig config_;
   double voxel_size_;
   uint64_t scans_ = 0;
   BlockTable table_;
-  std::vector<uint32_t> block_end_;  // number of points of a block, then the end in sorted_
-  std::vector<Point> points_;
-  std::vector<Point> sorted_;
-  std::vector<uint16_t> slot_of_cell_;  // within one block, from 1; 0 is none
+  std::vector<Eigen::Vector4f> points_;  // offset from the voxel's lower corner [m], time [s]
+  std::vector<uint16_t> cells_;          // of the same, within their blocks
+  uint32_t point_count_ = 0;
+  size_t last_voxels_ = 0;  // of the last scan
+  uint32_t run_count_ = 0;
+  std::vector<Run> runs_;
+  std::vector<Span> sorted_;            // by block
+  std::vector<uint32_t> block_end_;     // number of runs of a block, then the end in sorted_
+  std::vector<Sum> sums_;               // of one block, a cell at most one
+  uint32_t used_sums_ = 0;              // the others are 0
+  std::vector<uint16_t> slot_of_cell_;  // in sums_, or kNoSum
+  std::vector<uint32_t> slot_hint_;     // of a block, by low bits of its index; may be wrong
 };
 
 }  // namespace edgevox
