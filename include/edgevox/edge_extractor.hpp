@@ -25,8 +25,10 @@ class EdgeLabeller {
   /// How far a change of occupancy changes labels [voxels, in each axis].
   int reach() const;
 
-  /// Labels the `targets`, which must be occupied, anew; other voxels of `edges` stay.
-  void label(const Grid& occupied, const Grid& targets, Grid& edges) const;
+  /// Labels the `targets`, which must be occupied, anew; other voxels of `edges` stay. `sparse`, if
+  /// not null, becomes the number of targets as in EdgeCount::sparse.
+  void label(const Grid& occupied, const Grid& targets, Grid& edges,
+             size_t* sparse = nullptr) const;
 
  private:
   EdgeConfig config_;
@@ -41,6 +43,9 @@ extern template class EdgeLabeller<32>;
 struct EdgeCount {
   size_t occupied = 0;  ///< voxels of the map's size
   size_t edges = 0;
+  /// Voxels in whose structure tensor no eigenvalue reaches a tenth of a plane's largest: a large
+  /// share tells that the points lie too far apart for the voxel size.
+  size_t sparse = 0;
 };
 
 /// Labels the edges of one scan at the map's voxel size.

@@ -88,16 +88,30 @@ class DenseBlock {
   std::array<Field, 6> tensor_;
 };
 
-/// Descartes' rule on the characteristic polynomial of tensor - t I, as in the integer kernel.
+/// l^3 - c2 l^2 + c1 l - c0 of tensor - t I.
+struct CharacteristicPolynomial {
+  double c2, c1, c0;
+
+  CharacteristicPolynomial(const std::array<double, 6>& m, double t) {
+    const double xx = m[0] - t, yy = m[1] - t, zz = m[2] - t, xy = m[3], yz = m[4], zx = m[5];
+    const double minor_x = yy * zz - yz * yz;
+    c2 = xx + yy + zz;
+    c1 = minor_x + (xx * zz - zx * zx) + (xx * yy - xy * xy);
+    c0 = xx * minor_x - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
+  }
+};
+
+/// Descartes' rule, as in the integer kernel.
 bool isEdge(const std::array<double, 6>& m, const DenseThresholds& thresholds) {
   const double t = std::max(thresholds.magnitude, thresholds.rho * (m[0] + m[1] + m[2]));
-  const double xx = m[0] - t, yy = m[1] - t, zz = m[2] - t, xy = m[3], yz = m[4], zx = m[5];
-  const double minor_x = yy * zz - yz * yz;
-  const double c2 = xx + yy + zz;
-  const double c1 = minor_x + (xx * zz - zx * zx) + (xx * yy - xy * xy);
-  const double c0 = xx * minor_x - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
-  if (c0 < 0) return !(c2 <= 0 && c1 >= 0);
-  return !thresholds.exclude_corners && c2 > 0 && c1 > 0;
+  const CharacteristicPolynomial p(m, t);
+  if (p.c0 < 0) return !(p.c2 <= 0 && p.c1 >= 0);
+  return !thresholds.exclude_corners && p.c2 > 0 && p.c1 > 0;
+}
+
+bool isSparse(const std::array<double, 6>& m, double t) {
+  const CharacteristicPolynomial p(m, t);
+  return t > 0 && p.c2 < 0 && p.c1 > 0 && p.c0 < 0;
 }
 
 }  // namespace
@@ -116,8 +130,9 @@ DenseTaps paperTaps() {
 DenseTaps integerTaps() { return {{0, -1, 0, 1, 0}, {0, 1, 2, 1, 0}, {1, 4, 6, 4, 1}}; }
 
 template <int kEdge, typename Real>
-void labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
-                     const DenseTaps& taps, const DenseThresholds& thresholds) {
+size_t labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
+                       const DenseTaps& taps, const DenseThresholds& thresholds) {
+  size_t sparse = 0;
   using Dense = DenseBlock<kEdge, Real>;
   static thread_local Dense dense;  // 700 KB and more, kept from block to block
   dense.setTaps(taps);
@@ -133,13 +148,15 @@ void labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t
       std::array<double, 6> m;
       for (size_t i = 0; i < 6; ++i) m[i] = static_cast<double>(tensor[i][cell]);
       edges[row] |= static_cast<uint32_t>(isEdge(m, thresholds)) << x;
+      sparse += isSparse(m, thresholds.sparse) ? 1 : 0;
     }
   }
+  return sparse;
 }
 
-#define EDGEVOX_DENSE(edge, real)                                                        \
-  template void labelBlockDense<edge, real>(const uint64_t*, const uint32_t*, uint32_t*, \
-                                            const DenseTaps&, const DenseThresholds&);
+#define EDGEVOX_DENSE(edge, real)                                                          \
+  template size_t labelBlockDense<edge, real>(const uint64_t*, const uint32_t*, uint32_t*, \
+                                              const DenseTaps&, const DenseThresholds&);
 EDGEVOX_DENSE(8, double)
 EDGEVOX_DENSE(16, double)
 EDGEVOX_DENSE(32, double)

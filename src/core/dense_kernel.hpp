@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace edgevox {
@@ -20,18 +21,20 @@ DenseTaps paperTaps();
 /// Sobel and binomial, those of the integer kernel.
 DenseTaps integerTaps();
 
-constexpr int kDenseHalo = 4;  // gradient 2 + tensor 2
+constexpr double kPaperPlane = 10.016;  // largest eigenvalue of an ideal plane, with paperTaps()
+constexpr int kDenseHalo = 4;           // gradient 2 + tensor 2
 
 struct DenseThresholds {
   double magnitude = 1.0;       ///< of the middle eigenvalue
   double rho = 0.0;             ///< of the middle eigenvalue / trace
   bool exclude_corners = true;  ///< the smallest eigenvalue must not pass
+  double sparse = 0.0;          ///< a voxel is sparse if all eigenvalues are below; 0: off
 };
 
-/// Rows as for LabelBlock, with a halo of kDenseHalo. Real is float or double.
+/// Rows and result as for LabelBlock, with a halo of kDenseHalo. Real is float or double.
 template <int kEdge, typename Real>
-void labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
-                     const DenseTaps& taps, const DenseThresholds& thresholds);
+size_t labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
+                       const DenseTaps& taps, const DenseThresholds& thresholds);
 
 }  // namespace kernel
 }  // namespace edgevox

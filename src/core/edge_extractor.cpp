@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "dense_kernel.hpp"
 #include "edge_kernel.hpp"
@@ -12,11 +13,14 @@
 namespace edgevox {
 namespace {
 
-kernel::Thresholds thresholdsOf(const EdgeConfig& config, double support) {
+constexpr double kSparse = 0.1;  // of a plane's largest eigenvalue
+
+kernel::Thresholds thresholdsOf(const EdgeConfig& config, double support, bool count_sparse) {
   const double rho = config.ratio / (1.0 + config.ratio);
   return {std::llround(config.magnitude * static_cast<double>(kernel::kPlane)),
           std::llround(std::ldexp(rho, kernel::kRatioBits)),
-          std::llround(std::ldexp(support, kernel::kSupportBits)), false};
+          std::llround(std::ldexp(support, kernel::kSupportBits)), false,
+          count_sparse ? std::llround(kSparse * static_cast<double>(kernel::kPlane)) : 0};
 }
 
 bool hasAvx2() {
@@ -52,13 +56,17 @@ int EdgeLabeller<kEdge>::reach() const {
 }
 
 template <int kEdge>
-void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid& edges) const {
+void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid& edges,
+                                size_t* sparse) const {
   std::vector<size_t> edge_slots(targets.blockCount());
   for (size_t slot = 0; slot < edge_slots.size(); ++slot) {
     edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
   }
   const auto taps = kernel::paperTaps();
-  const auto thresholds = thresholdsOf(config_, support_);
+  const auto thresholds = thresholdsOf(config_, support_, sparse != nullptr);
+  kernel::DenseThresholds paper_thresholds;
+  if (sparse != nullptr) paper_thresholds.sparse = kSparse * kernel::kPaperPlane;
+  std::vector<size_t> sparse_of_block(targets.blockCount());
   const auto label_block = chooseKernel(config_.instruction_set, kEdge);
 
   parallelFor(targets.blockCount(), threads_, [&](size_t slot) {
@@ -70,10 +78,11 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
     const VoxelIndex& block = targets.blockIndex(slot);
     if (config_.mode == EdgeMode::kPaper) {
       const Neighbourhood<kEdge, kernel::kDenseHalo> rows(occupied, block);
-      kernel::labelBlockDense<kEdge, double>(rows.data(), target.data(), found.data(), taps, {});
+      sparse_of_block[slot] = kernel::labelBlockDense<kEdge, double>(
+          rows.data(), target.data(), found.data(), taps, paper_thresholds);
     } else {
       const Neighbourhood<kEdge, kernel::kHalo> rows(occupied, block);
-      label_block(rows.data(), target.data(), found.data(), thresholds);
+      sparse_of_block[slot] = label_block(rows.data(), target.data(), found.data(), thresholds);
     }
     auto& edge_block = edges.block(edge_slots[slot]);
     for (size_t row = 0; row < kRows; ++row) {
@@ -81,6 +90,9 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
                                                         (found[row] & target_block[row]));
     }
   });
+  if (sparse != nullptr) {
+    *sparse = std::accumulate(sparse_of_block.begin(), sparse_of_block.end(), size_t{0});
+  }
 }
 
 template class EdgeLabeller<8>;
@@ -97,7 +109,7 @@ EdgeCount EdgeExtractor::extract(VoxelScan& scan) {
   for (const ScanVoxel& voxel : scan.voxels) {
     count.occupied += occupied_.set(coarser(voxel.index, 1)) ? 1 : 0;
   }
-  labeller_.label(occupied_, occupied_, edges_);
+  labeller_.label(occupied_, occupied_, edges_, &count.sparse);
   for (ScanVoxel& voxel : scan.voxels) voxel.edge = edges_.test(coarser(voxel.index, 1));
   count.edges = edges_.voxelCount();
   return count;

@@ -3,6 +3,7 @@
 // for several instruction sets, and no inline function may leak from one to the other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace edgevox {
@@ -18,12 +19,14 @@ struct Thresholds {
   int64_t rho;        ///< smallest middle eigenvalue / trace, << kRatioBits
   int64_t support;  ///< smallest eigenvalue of the neighbours' covariance, << kSupportBits; 0: off
   bool exclude_corners;  ///< Ryde et al. 2013: the smallest eigenvalue must not pass
+  int64_t sparse;        ///< a voxel is sparse if all eigenvalues are below, plane = kPlane; 0: off
 };
 
 /// `occupied`: (edge + 2 kHalo)^2 rows, row (z + kHalo) * (edge + 2 kHalo) + y + kHalo, bit
 /// x + kHalo. `targets`, `edges`: edge^2 rows of `edge` bits, targets a subset of the occupied.
-using LabelBlock = void (*)(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
-                            const Thresholds& thresholds);
+/// Returns the number of sparse targets.
+using LabelBlock = size_t (*)(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
+                              const Thresholds& thresholds);
 
 /// For a block edge of 8, 16 or 32.
 LabelBlock portableLabelBlock(int block_edge);

@@ -125,6 +125,15 @@ inline bool isEdge(const Tensor& tensor, const Thresholds& thresholds) {
   return exactly_two | (others_positive & !thresholds.exclude_corners);
 }
 
+/// Whether all eigenvalues are below t: tensor - t I is negative definite. The largest is at least
+/// as large as any of the diagonal, which settles most voxels.
+inline bool isSparse(const Tensor& tensor, int64_t t) {
+  if ((tensor.xx >= t) | (tensor.yy >= t) | (tensor.zz >= t)) return false;
+  const auto p = characteristic(
+      {tensor.xx - t, tensor.yy - t, tensor.zz - t, tensor.xy, tensor.yz, tensor.zx});
+  return (p.c1 > 0) & (p.c0 < 0);
+}
+
 template <int kEdge>
 class BlockLabeller {
  public:
@@ -142,13 +151,16 @@ class BlockLabeller {
     for (int z = 0; z < kRows; ++z) occupied_rows_[z] = nonEmptyRows(occupied + z * kRows);
   }
 
-  void label(uint32_t* edges, const Thresholds& thresholds) {
+  size_t label(uint32_t* edges, const Thresholds& thresholds) {
+    size_t sparse = 0;
     std::memset(edges, 0, kEdge * kEdge * sizeof(uint32_t));
     for (int z = -kReach; z < kEdge + kReach; ++z) {
       if (((target_planes_ >> (z + kReach)) & 31) != 0) sumRowsOfSlab(z);
       const int ready = z - kReach;
-      if (ready >= 0 && hasTargets(ready)) labelSlab(ready, edges + ready * kEdge, thresholds);
+      if (ready < 0 || !hasTargets(ready)) continue;
+      sparse += labelSlab(ready, edges + ready * kEdge, thresholds);
     }
+    return sparse;
   }
 
  private:
@@ -245,17 +257,21 @@ class BlockLabeller {
     }
   }
 
-  void labelSlab(int z, uint32_t* edges, const Thresholds& thresholds) const {
+  size_t labelSlab(int z, uint32_t* edges, const Thresholds& thresholds) const {
+    size_t sparse = 0;
     for (int y = 0; y < kEdge; ++y) {
       uint32_t found = 0;
       for (uint32_t bits = target_[z + 2 * kReach][y + 2 * kReach]; bits != 0; bits &= bits - 1) {
         const int x = __builtin_ctz(bits);
-        const bool edge = isEdge(tensorAt(x, y, z), thresholds) &&
+        const Tensor tensor = tensorAt(x, y, z);
+        sparse += static_cast<size_t>(isSparse(tensor, thresholds.sparse));
+        const bool edge = isEdge(tensor, thresholds) &&
                           (thresholds.support == 0 || isSupported(x, y, z, thresholds.support));
         found |= static_cast<uint32_t>(edge) << x;
       }
       edges[y] = found;
     }
+    return sparse;
   }
 
   /// Sums along y and z, rows of equal weight first: four of them stay below 2^15.
@@ -324,9 +340,9 @@ class BlockLabeller {
 };
 
 template <int kEdge>
-void labelBlock(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
-                const Thresholds& thresholds) {
-  BlockLabeller<kEdge>(occupied, targets).label(edges, thresholds);
+size_t labelBlock(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
+                  const Thresholds& thresholds) {
+  return BlockLabeller<kEdge>(occupied, targets).label(edges, thresholds);
 }
 
 LabelBlock labelBlockFor(int block_edge) {

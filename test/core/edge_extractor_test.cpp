@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the extractor finds on shapes whose edges are known.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -273,6 +274,10 @@ void expectFlagsOfTheirMapVoxels(EdgeExtractor& extractor, const Scene& scene, R
   EXPECT_EQ(scene.voxels.size(), count.occupied);
   EXPECT_EQ(edges.voxelCount(), count.edges);
   EXPECT_GT(count.edges, 0U);
+  const ReferenceExtractor reference(scene.voxels);
+  const auto sparse = std::count_if(scene.voxels.begin(), scene.voxels.end(),
+                                    [&](const VoxelIndex& v) { return reference.isSparse(v); });
+  EXPECT_EQ(static_cast<size_t>(sparse), count.sparse);
   for (const ScanVoxel& voxel : scan.voxels) {
     ASSERT_EQ(edges.test(coarser(voxel.index, 1)), voxel.edge);
   }
@@ -291,6 +296,7 @@ TEST(Extractor, AnEmptyScanHasNoEdges) {
   const EdgeCount count = EdgeExtractor(kDefaults, 1).extract(scan);
   EXPECT_EQ(0U, count.occupied);
   EXPECT_EQ(0U, count.edges);
+  EXPECT_EQ(0U, count.sparse);
 }
 
 }  // namespace

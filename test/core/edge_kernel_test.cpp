@@ -154,6 +154,69 @@ TEST(PaperMode, UsesNeitherSupportNorThresholds) {
   EXPECT_TRUE(sameVoxels(edges, labelled(voxels, other, 0.75)));
 }
 
+template <int kEdge>
+size_t sparseCount(const Voxels& voxels, const EdgeConfig& config, int threads = 1) {
+  const auto grid = gridOf<kEdge>(voxels);
+  BitGrid<kEdge> edges;
+  size_t sparse = 12345;  // must be overwritten
+  EdgeLabeller<kEdge>(config, 0.3, threads).label(grid, grid, edges, &sparse);
+  EXPECT_TRUE(sameVoxels(labelled<kEdge>(voxels, config, 0.3), voxelsOf(edges)));
+  return sparse;
+}
+
+/// Sparse ones among them: lines far apart, and single voxels.
+std::vector<NamedVoxels> sparseOccupancy(uint32_t seed) {
+  auto all = variedOccupancy(seed);
+  Random random(seed);
+  for (const double spacing : {4.0, 6.0, 8.0}) {
+    all.push_back({"rings " + std::to_string(spacing), ringScene(random, spacing, 15).voxels});
+  }
+  all.push_back({"thin cloud", randomCloud(random, 24, 0.004)});
+  all.push_back({"single voxel", {{3, -5, 7}}});
+  return all;
+}
+
+TEST(Sparse, EqualsTheReference) {
+  size_t sparse = 0;
+  size_t occupied = 0;
+  EdgeConfig other;  // the share does not depend on what an edge is
+  other.magnitude = 0.3;
+  other.ratio = 0.01;
+  for (const auto& [name, voxels] : sparseOccupancy(18)) {
+    const ReferenceExtractor reference(voxels);
+    const auto expected = static_cast<size_t>(std::count_if(
+        voxels.begin(), voxels.end(), [&](const VoxelIndex& v) { return reference.isSparse(v); }));
+    EXPECT_EQ(expected, sparseCount<16>(voxels, {})) << name;
+    EXPECT_EQ(expected, sparseCount<8>(voxels, {})) << name;
+    EXPECT_EQ(expected, sparseCount<32>(voxels, {}, 4)) << name;
+    EXPECT_EQ(expected, sparseCount<16>(voxels, other)) << name;
+    EXPECT_EQ(expected, sparseCount<16>(voxels, withInstructionSet(InstructionSet::kPortable)))
+        << name;
+    sparse += expected;
+    occupied += voxels.size();
+  }
+  EXPECT_GT(sparse, occupied / 100);  // both answers occur
+  EXPECT_LT(sparse, occupied / 2);
+}
+
+TEST(Sparse, EqualsTheReferenceInPaperMode) {
+  constexpr double kThreshold = 1.0016;  // a tenth of a plane's
+  for (const auto& [name, voxels] : sparseOccupancy(19)) {
+    const ReferenceExtractor reference(voxels);
+    size_t least = 0;
+    size_t most = 0;
+    for (const VoxelIndex& v : voxels) {
+      const double largest = reference.paperEigenvalues(v)[2];
+      least += largest < kThreshold - 1e-9 ? 1 : 0;
+      most += largest < kThreshold + 1e-9 ? 1 : 0;
+    }
+    const size_t counted = sparseCount<16>(voxels, paperMode());
+    EXPECT_LE(least, counted) << name;
+    EXPECT_GE(most, counted) << name;
+    EXPECT_EQ(counted, sparseCount<8>(voxels, paperMode(), 2)) << name;
+  }
+}
+
 TEST(Independence, OfTheBlockEdge) {
   for (const EdgeConfig& config : {EdgeConfig{}, paperMode()}) {
     for (const auto& [name, voxels] : variedOccupancy(10)) {

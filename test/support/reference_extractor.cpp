@@ -36,6 +36,9 @@ int binomialTap(int i) { return i == 0 ? 6 : std::abs(i) == 1 ? 4 : 1; }
 
 int64_t fixedPoint(double value, int bits) { return std::llround(std::ldexp(value, bits)); }
 
+/// Rounded down.
+int64_t sixteenth(int64_t a) { return (a - ((a % 16) + 16) % 16) / 16; }
+
 void swapBoth(WideMatrix& m, size_t i, size_t j) {
   std::swap(m[i], m[j]);
   for (auto& row : m) std::swap(row[i], row[j]);
@@ -144,10 +147,14 @@ bool ReferenceExtractor::isSupported(const VoxelIndex& v, double support) const 
   return positiveEigenvalues(scatter - n * threshold * IntegerMatrix::Identity()) == 3;
 }
 
+bool ReferenceExtractor::isSparse(const VoxelIndex& v) const {
+  const IntegerMatrix tensor = structureTensor(v).unaryExpr(&sixteenth);
+  return positiveEigenvalues(fixedPoint(0.1, 15) * IntegerMatrix::Identity() - tensor) == 3;
+}
+
 bool ReferenceExtractor::isEdge(const VoxelIndex& v, const EdgeConfig& config,
                                 double support) const {
-  const auto sixteenth = [](int64_t a) { return (a - ((a % 16) + 16) % 16) / 16; };
-  const IntegerMatrix tensor = structureTensor(v).unaryExpr(sixteenth);
+  const IntegerMatrix tensor = structureTensor(v).unaryExpr(&sixteenth);
   const int64_t rho = fixedPoint(config.ratio / (1.0 + config.ratio), 16);
   const int64_t threshold =
       std::max(fixedPoint(config.magnitude, 15), rho * tensor.trace() / 65536);

@@ -43,6 +43,9 @@ class ReferenceExtractor {
   /// (magnitude), 2^-16 (rho) and 2^-10 voxel^2 (support).
   bool isEdge(const VoxelIndex& v, const EdgeConfig& config, double support) const;
   bool isPaperEdge(const VoxelIndex& v) const;
+  /// The default mode: no eigenvalue of the tensor in 16ths, rounded down, reaches a tenth of a
+  /// plane's, rounded likewise.
+  bool isSparse(const VoxelIndex& v) const;
 
   std::vector<VoxelIndex> edges(const EdgeConfig& config, double support) const;
   std::vector<VoxelIndex> paperEdges() const;
