@@ -148,7 +148,6 @@ class BlockLabeller {
       std::memcpy(target_[z + 2 * kReach] + 2 * kReach, targets + z * kEdge,
                   kEdge * sizeof(uint32_t));
     }
-    for (int z = 0; z < kRows; ++z) occupied_rows_[z] = nonEmptyRows(occupied + z * kRows);
   }
 
   size_t label(uint32_t* edges, const Thresholds& thresholds) {
@@ -170,15 +169,6 @@ class BlockLabeller {
   static constexpr int kSlabs = 2 * kReach + 1;
 
   using SumRow = int16_t[kEdge][8];
-
-  static uint64_t nonEmptyRows(const uint64_t* plane) {
-    uint64_t any = 0;
-    for (int y = 0; y < kRows; ++y) any |= plane[y];
-    if (any == 0) return 0;
-    uint64_t rows = 0;
-    for (int y = 0; y < kRows; ++y) rows |= static_cast<uint64_t>(plane[y] != 0) << y;
-    return rows;
-  }
 
   bool hasTargets(int z) const { return ((target_planes_ >> (z + 2 * kReach)) & 1) != 0; }
 
@@ -214,21 +204,14 @@ class BlockLabeller {
     }
   }
 
-  /// Products of the gradients of the row's cells; false if all are 0.
+  /// Products of the gradients of the row's cells; false if all are 0. The nine rows of voxels are
+  /// taken whether empty or not: which of them are cannot be foreseen by a processor.
   bool multiplyRow(int y, int z) {
     uint64_t row[9];
-    const int8_t(*table[9])[16];
-    int count = 0;
     uint64_t any = 0;
-    for (int dz = 0; dz < 3; ++dz) {
-      const uint64_t* from = occupiedRow(y - 1, z + dz - 1);
-      uint64_t rows = (occupied_rows_[z + dz - 1 + kHalo] >> (y - 1 + kHalo)) & 7;
-      for (; rows != 0; rows &= rows - 1) {
-        const int dy = __builtin_ctzll(rows);
-        row[count] = from[dy];
-        table[count++] = kGradients.add[dz][dy];
-        any |= from[dy];
-      }
+    for (int i = 0; i < 9; ++i) {
+      row[i] = *occupiedRow(y + i % 3 - 1, z + i / 3 - 1);
+      any |= row[i];
     }
     if (any == 0) return false;
     for (int c = 0; c < kCells; c += 4) {
@@ -237,7 +220,9 @@ class BlockLabeller {
         continue;
       }
       Int8x16 sum = {};
-      for (int i = 0; i < count; ++i) sum += load<Int8x16>(table[i][(row[i] >> c) & 63]);
+      for (int i = 0; i < 9; ++i) {
+        sum += load<Int8x16>(kGradients.add[i / 3][i % 3][(row[i] >> c) & 63]);
+      }
       alignas(16) int8_t gradients[16];
       store(gradients, sum);
       multiplyGradients(gradients, product_ + c);
@@ -330,8 +315,7 @@ class BlockLabeller {
   }
 
   const uint64_t* occupied_;
-  uint64_t occupied_rows_[kRows];  // of each plane, those with a voxel
-  uint64_t target_planes_ = 0;     // bit z + 2 kReach
+  uint64_t target_planes_ = 0;  // bit z + 2 kReach
   uint32_t target_[kEdge + 4 * kReach][kEdge + 4 * kReach];
   alignas(16) int16_t product_[kCells][8];  // cells from x = -2 on
   alignas(16) SumRow sum_[kSlabs][kCells];
