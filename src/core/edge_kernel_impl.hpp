@@ -44,22 +44,21 @@ struct GradientTable {
 };
 constexpr GradientTable kGradients;
 
-/// Number, sum and sum of squares of the positions -3..3 that are set in 7 bits.
+/// Number, sum and sum of squares of the positions -3..3 that are set in 7 bits, and zeros.
 struct RowMoments {
-  int16_t count = 0;
-  int16_t sum = 0;
-  int16_t squares = 0;
+  alignas(16) int16_t value[8] = {};
 };
 struct RowMomentTable {
   RowMoments of[128];
 
   constexpr RowMomentTable() : of() {
     for (int bits = 0; bits < 128; ++bits) {
+      int16_t* value = of[bits].value;
       for (int i = 0; i < 7; ++i) {
         if (((bits >> i) & 1) == 0) continue;
-        ++of[bits].count;
-        of[bits].sum = static_cast<int16_t>(of[bits].sum + (i - 3));
-        of[bits].squares = static_cast<int16_t>(of[bits].squares + (i - 3) * (i - 3));
+        ++value[0];
+        value[1] = static_cast<int16_t>(value[1] + (i - 3));
+        value[2] = static_cast<int16_t>(value[2] + (i - 3) * (i - 3));
       }
     }
   }
@@ -280,33 +279,40 @@ class BlockLabeller {
     return {sum[0] >> 4, sum[1] >> 4, sum[2] >> 4, sum[4] >> 4, sum[5] >> 4, sum[6] >> 4};
   }
 
+  /// Moments of the seven rows (y + dy, z) around a voxel: those of order 0, 1, 2 in dy.
+  struct PlaneMoments {
+    Int16x8 sum, first, second;  // each of (count, sum along x, sum of squares along x, 0)
+  };
+
+  static PlaneMoments planeMoments(const uint64_t* rows, int x) {
+    const auto row = [&](int dy) {
+      return load<Int16x8>(kRowMoments.of[(rows[dy] >> x) & 127].value);
+    };
+    const Int16x8 a1 = row(1), b1 = row(-1);
+    const Int16x8 a2 = row(2), b2 = row(-2);
+    const Int16x8 a3 = row(3), b3 = row(-3);
+    const Int16x8 both1 = a1 + b1, both2 = a2 + b2, both3 = a3 + b3;
+    return {row(0) + both1 + both2 + both3,
+            (a1 - b1) + ((a2 - b2) << 1) + ((a3 - b3) << 1) + (a3 - b3),
+            both1 + (both2 << 2) + (both3 << 3) + both3};
+  }
+
   /// Whether the positions of the occupied voxels of the 7^3 cube spread in all directions:
   /// n^2 (covariance - support I) has three positive leading minors.
   bool isSupported(int x, int y, int z, int64_t support) const {
-    int64_t n = 0, sx = 0, sy = 0, sz = 0, xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+    PlaneMoments all = {};
+    Int16x8 sum_z = {}, first_z = {}, second_z = {};
     for (int dz = -3; dz <= 3; ++dz) {
-      const uint64_t* rows = occupiedRow(y, z + dz);
-      int plane_n = 0, plane_x = 0, plane_y = 0, plane_xy = 0, plane_xx = 0, plane_yy = 0;
-      for (int dy = -3; dy <= 3; ++dy) {
-        const RowMoments row = kRowMoments.of[(rows[dy] >> x) & 127];
-        plane_n += row.count;
-        plane_x += row.sum;
-        plane_xx += row.squares;
-        plane_y += dy * row.count;
-        plane_yy += dy * dy * row.count;
-        plane_xy += dy * row.sum;
-      }
-      n += plane_n;
-      sx += plane_x;
-      sy += plane_y;
-      sz += dz * plane_n;
-      xx += plane_xx;
-      yy += plane_yy;
-      zz += dz * dz * plane_n;
-      xy += plane_xy;
-      yz += dz * plane_y;
-      zx += dz * plane_x;
+      const PlaneMoments plane = planeMoments(occupiedRow(y, z + dz), x);
+      const auto d = static_cast<int16_t>(dz);
+      all = {all.sum + plane.sum, all.first + plane.first, all.second + plane.second};
+      sum_z += plane.sum * d;
+      first_z += plane.first * d;
+      second_z += plane.sum * static_cast<int16_t>(dz * dz);
     }
+    const int64_t n = all.sum[0], sx = all.sum[1], sy = all.first[0], sz = sum_z[0];
+    const int64_t xx = all.sum[2], yy = all.second[0], zz = second_z[0];
+    const int64_t xy = all.first[1], yz = first_z[0], zx = sum_z[1];
     const int64_t t = (support * n * n) >> kSupportBits;
     const Tensor m = {n * xx - sx * sx - t, n * yy - sy * sy - t, n * zz - sz * sz - t,
                       n * xy - sx * sy,     n * yz - sy * sz,     n * zx - sz * sx};
