@@ -57,6 +57,8 @@ class EdgeExtractor {
   EdgeCount extract(VoxelScan& scan);
 
  private:
+  void setFlags(VoxelScan& scan) const;
+
   EdgeLabeller<16> labeller_;
   BitGrid<16> occupied_;
   BitGrid<16> edges_;

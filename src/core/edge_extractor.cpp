@@ -110,9 +110,23 @@ EdgeCount EdgeExtractor::extract(VoxelScan& scan) {
     count.occupied += occupied_.set(coarser(voxel.index, 1)) ? 1 : 0;
   }
   labeller_.label(occupied_, occupied_, edges_, &count.sparse);
-  for (ScanVoxel& voxel : scan.voxels) voxel.edge = edges_.test(coarser(voxel.index, 1));
+  setFlags(scan);
   count.edges = edges_.voxelCount();
   return count;
+}
+
+/// Voxels of a block mostly follow one another: it is looked up once.
+void EdgeExtractor::setFlags(VoxelScan& scan) const {
+  using Layout = BitGrid<16>::Layout;
+  const BitGrid<16>::Block* edges = nullptr;
+  VoxelIndex last;
+  for (ScanVoxel& voxel : scan.voxels) {
+    const VoxelIndex v = coarser(voxel.index, 1);
+    const VoxelIndex block = Layout::block(v);
+    if (edges == nullptr || block != last) edges = edges_.findBlock(block);
+    last = block;
+    voxel.edge = (((*edges)[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1U) != 0;
+  }
 }
 
 }  // namespace edgevox

@@ -287,11 +287,10 @@ void Voxelizer::finishBlock(const VoxelIndex& block, VoxelScan& scan) {
   Sum* end = sums_.data() + used_sums_;
   for (Sum* sum = sums_.data(); sum != end; ++sum) {
     const auto cell = static_cast<int>(sum->cell);
-    ScanVoxel voxel;
+    ScanVoxel& voxel = scan.voxels.emplace_back();
     voxel.index = Layout::voxel(block, cell / kRow, cell % kRow);
     voxel.point_count = sum->count;
     setMeans(sum->sum, voxel_size, voxel);
-    scan.voxels.push_back(voxel);
     slot_of_cell[cell] = kNoSum;
     *sum = {};
   }
