@@ -214,10 +214,6 @@ class BlockLabeller {
     }
     if (any == 0) return false;
     for (int c = 0; c < kCells; c += 4) {
-      if (((any >> c) & 63) == 0) {
-        std::memset(product_[c], 0, 4 * sizeof(product_[0]));
-        continue;
-      }
       Int8x16 sum = {};
       for (int i = 0; i < 9; ++i) {
         sum += load<Int8x16>(kGradients.add[i / 3][i % 3][(row[i] >> c) & 63]);
