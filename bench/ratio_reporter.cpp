@@ -25,7 +25,7 @@ struct Ratio {
 };
 constexpr Ratio kRatios[] = {
     {"pcl_voxel_grid", "voxelize", 0},   {"kernel_portable", "kernel_fast", 0},
-    {"kernel_dense", "kernel_fast", 15}, {"kernel_naive", "kernel_fast", 0},
+    {"kernel_dense", "kernel_fast", 20}, {"kernel_naive", "kernel_fast", 0},
     {"pcl_ndt", "pipeline", 0},          {"pcl_gicp", "pipeline", 5},
     {"pcl_gicp_raw", "pipeline", 5},
 };
