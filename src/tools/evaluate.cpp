@@ -1,65 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares what a run has written with the truth.
+// Measures runs, edges and maps against what is known of them.
 #include <boost/program_options.hpp>
 #include <exception>
-#include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
-#include "run/run_files.hpp"
+#include "evaluation/subjects.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
-namespace po = boost::program_options;
+struct Subject {
+  const char* name;
+  void (*evaluate)(const edgevox::Arguments&);
+  const char* summary;
+};
 
-po::options_description describe() {
-  po::options_description description(
-      "Usage: evaluate run FOLDER --reference TUM\n"
-      "Compares FOLDER/trajectory.tum with a reference trajectory of the same frame: writes\n"
-      "FOLDER/errors.csv and prints the errors as JSON.\nOptions");
-  auto add = description.add_options();
-  add("help,h", "print this text");
-  add("subject", po::value<std::string>()->required(), "run");
-  add("folder", po::value<std::string>()->required(), "of map_bag or save_map");
-  add("reference", po::value<std::string>()->required(), "true trajectory, TUM format");
-  return description;
-}
+constexpr Subject kSubjects[] = {
+    {"run", edgevox::evaluateRun, "the trajectory of a run against a reference"},
+    {"edges", edgevox::evaluateEdges, "the extraction of edges from scans and into the map"},
+};
 
-void evaluateRun(const fs::path& folder, const fs::path& reference) {
-  const auto estimate = edgevox::readTum(folder / "trajectory.tum");
-  const auto errors = edgevox::evaluate(estimate, edgevox::readTum(reference));
-  edgevox::writeFile(folder / "errors.csv", edgevox::errorsCsv(errors));
-  std::cout << edgevox::errorsReport(errors).json();
-}
-
-int run(int argc, char** argv) {
-  const po::options_description known = describe();
-  po::positional_options_description positional;
-  positional.add("subject", 1).add("folder", 1);
-  po::variables_map given;
-  po::store(po::command_line_parser(argc, argv).options(known).positional(positional).run(), given);
-  if (given.count("help") > 0) {
-    std::cout << known;
-    return 0;
+void printHelp() {
+  std::cout << "Usage: evaluate SUBJECT [options], or evaluate SUBJECT --help\nSubjects:\n";
+  for (const Subject& subject : kSubjects) {
+    std::cout << "  " << subject.name << "\t" << subject.summary << "\n";
   }
-  po::notify(given);
-  const auto subject = given["subject"].as<std::string>();
-  if (subject != "run") throw po::error("'" + subject + "' is not known: run");
-  evaluateRun(given["folder"].as<std::string>(), given["reference"].as<std::string>());
-  return 0;
+}
+
+const Subject& subjectOf(const std::string& name) {
+  std::string names;
+  for (const Subject& subject : kSubjects) {
+    if (name == subject.name) return subject;
+    names += (names.empty() ? "" : ", ") + std::string(subject.name);
+  }
+  throw std::invalid_argument("'" + name + "' is not known: " + names);
+}
+
+void run(const edgevox::Arguments& arguments) {
+  if (arguments.empty()) throw std::invalid_argument("name a subject");
+  if (arguments[0] == "--help" || arguments[0] == "-h") return printHelp();
+  subjectOf(arguments[0]).evaluate({arguments.begin() + 1, arguments.end()});
+}
+
+int refuse(const std::exception& error) {
+  std::cerr << "evaluate: " << error.what() << "; see evaluate --help\n";
+  return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
-  } catch (const po::error& error) {
-    std::cerr << "evaluate: " << error.what() << "; see evaluate --help\n";
-    return 2;
+    run({argv + 1, argv + argc});
+    return 0;
+  } catch (const boost::program_options::error& error) {
+    return refuse(error);
+  } catch (const std::invalid_argument& error) {
+    return refuse(error);
   } catch (const std::exception& error) {
     std::cerr << "evaluate: " << error.what() << "\n";
     return 1;

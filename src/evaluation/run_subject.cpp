@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <iostream>
+
+#include "edgevox/atomic_file.hpp"
+#include "edgevox/trajectory_evaluation.hpp"
+#include "evaluation/subjects.hpp"
+#include "run/run_files.hpp"
+
+namespace edgevox {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+po::options_description describe() {
+  po::options_description known(
+      "Usage: evaluate run FOLDER --reference TUM\n"
+      "Compares FOLDER/trajectory.tum with a reference trajectory of the same frame: writes\n"
+      "FOLDER/errors.csv and prints the errors as JSON.\nOptions");
+  auto add = known.add_options();
+  add("help,h", "print this text");
+  add("folder", po::value<std::string>()->required(), "of map_bag or save_map; the first argument");
+  add("reference", po::value<std::string>()->required(), "true trajectory, TUM format");
+  return known;
+}
+
+}  // namespace
+
+void evaluateRun(const Arguments& arguments) {
+  const auto given = parseArguments(arguments, describe(), "folder");
+  if (!given) return;
+  const fs::path folder = (*given)["folder"].as<std::string>();
+  const auto errors = evaluate(readTum(folder / "trajectory.tum"),
+                               readTum((*given)["reference"].as<std::string>()));
+  writeFile(folder / "errors.csv", errorsCsv(errors));
+  std::cout << errorsReport(errors).json();
+}
+
+}  // namespace edgevox

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/subjects.hpp"
+
+#include <iostream>
+#include <stdexcept>
+
+namespace edgevox {
+namespace {
+
+namespace po = boost::program_options;
+
+size_t countOf(const po::variables_map& given, const char* name) {
+  const auto count = given[name].as<int64_t>();
+  if (count >= 1) return static_cast<size_t>(count);
+  throw std::invalid_argument(std::string("--") + name + " must be at least 1");
+}
+
+}  // namespace
+
+std::optional<po::variables_map> parseArguments(const Arguments& arguments,
+                                                const po::options_description& known,
+                                                const char* positional) {
+  po::positional_options_description position;
+  position.add(positional, 1);
+  namespace style = po::command_line_style;
+  po::variables_map given;
+  po::store(po::command_line_parser(arguments)
+                .options(known)
+                .positional(position)
+                .style(style::unix_style & ~style::allow_guessing)
+                .run(),
+            given);
+  if (given.count("help") > 0) {
+    std::cout << known;
+    return std::nullopt;
+  }
+  po::notify(given);
+  return given;
+}
+
+void addRecordingOptions(po::options_description& known) {
+  auto add = known.add_options();
+  add("help,h", "print this text");
+  add("input", po::value<std::string>()->required(),
+      "a bag, or WORLD:SENSOR[:SEED] to simulate (building, street or corridor; 16, 32, 64 or "
+      "scanner), as in building:32; the first argument");
+  add("topic", po::value<std::string>()->default_value("", "the only one with clouds"),
+      "of a bag's clouds");
+  add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),
+      "of a bag's sensor at the clouds' stamps, TUM format");
+  add("every", po::value<int64_t>()->default_value(1), "take every N-th scan");
+  add("scans", po::value<int64_t>()->default_value(100), "take so many scans at most");
+}
+
+RecordingOptions recordingOptionsOf(const po::variables_map& given) {
+  RecordingOptions options;
+  options.input = given["input"].as<std::string>();
+  options.topic = given["topic"].as<std::string>();
+  options.poses = given["poses"].as<std::string>();
+  options.every = countOf(given, "every");
+  options.most = countOf(given, "scans");
+  return options;
+}
+
+}  // namespace edgevox

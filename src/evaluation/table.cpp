@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+namespace edgevox {
+namespace {
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+std::string joined(const std::vector<std::string>& texts, const char* between) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+  return all;
+}
+
+std::string markdownLine(const std::vector<std::string>& cells) {
+  return "| " + joined(cells, " | ") + " |\n";
+}
+
+}  // namespace
+
+Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+void Table::set(const std::string& column, double value) {
+  const size_t position = positionOf(column);
+  if (!std::isfinite(value)) return;
+  rows_.back()[position] = {formatted("%.6g", value),
+                            formatted("%.*f", columns_[position].decimals, value)};
+}
+
+void Table::set(const std::string& column, const std::string& value) {
+  rows_.back()[positionOf(column)] = {value, value};
+}
+
+std::string Table::csv() const {
+  std::string text;
+  for (size_t i = 0; i < columns_.size(); ++i) text += (i == 0 ? "" : ",") + columns_[i].name;
+  text += "\n";
+  for (const auto& row : rows_) {
+    for (size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + row[i].csv;
+    text += "\n";
+  }
+  return text;
+}
+
+std::string Table::markdown(const std::vector<std::string>& columns, size_t keys) const {
+  std::vector<size_t> shown;
+  for (const std::string& column : columns) {
+    const size_t position = positionOf(column);
+    if (!emptyColumn(position)) shown.push_back(position);
+  }
+  if (shown.size() <= keys) return "";
+  std::vector<std::string> titles;
+  for (const size_t position : shown) titles.push_back(columns_[position].title);
+  std::string text =
+      markdownLine(titles) + markdownLine(std::vector<std::string>(shown.size(), "---"));
+  for (const auto& row : rows_) {
+    std::vector<std::string> cells;
+    for (const size_t i : shown) cells.push_back(row[i].csv.empty() ? "-" : row[i].markdown);
+    text += markdownLine(cells);
+  }
+  return text;
+}
+
+size_t Table::positionOf(const std::string& column) const {
+  const auto found = std::find_if(columns_.begin(), columns_.end(),
+                                  [&](const Column& known) { return known.name == column; });
+  if (found == columns_.end()) throw std::out_of_range("no column is called " + column);
+  return static_cast<size_t>(found - columns_.begin());
+}
+
+bool Table::emptyColumn(size_t position) const {
+  return std::all_of(rows_.begin(), rows_.end(),
+                     [&](const auto& row) { return row[position].csv.empty(); });
+}
+
+}  // namespace edgevox

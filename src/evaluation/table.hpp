@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace edgevox {
+
+struct Column {
+  std::string name;   ///< in CSV: no commas, no quotes
+  std::string title;  ///< in Markdown
+  int decimals = 2;   ///< in Markdown, of numbers
+};
+
+/// Rows of named values, written as CSV or, some of its columns at a time, as Markdown.
+class Table {
+ public:
+  explicit Table(std::vector<Column> columns);
+
+  void addRow() { rows_.emplace_back(columns_.size()); }
+  /// In the last row. A value that is not finite stays empty, as does one that is never set.
+  /// Throws std::out_of_range for a column that is not known.
+  void set(const std::string& column, double value);
+  void set(const std::string& column, const std::string& value);
+
+  size_t rows() const { return rows_.size(); }
+  std::string csv() const;
+  /// Of the columns named, without those that are empty in all rows; "" if nothing is left but
+  /// the first `keys` columns, which say what a row is about.
+  std::string markdown(const std::vector<std::string>& columns, size_t keys) const;
+
+ private:
+  struct Value {
+    std::string csv;
+    std::string markdown;
+  };
+
+  size_t positionOf(const std::string& column) const;
+  bool emptyColumn(size_t position) const;
+
+  std::vector<Column> columns_;
+  std::vector<std::vector<Value>> rows_;
+};
+
+}  // namespace edgevox
