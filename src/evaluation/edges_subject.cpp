@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
+#include "edgevox/atomic_file.hpp"
+#include "evaluation/edge_measures.hpp"
+#include "evaluation/plot.hpp"
 #include "evaluation/subjects.hpp"
+#include "run/run_files.hpp"
 
 namespace edgevox {
 namespace {
 
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
+using Sizes = std::vector<double>;
+
 po::options_description describe() {
-  po::options_description known("Usage: evaluate edges INPUT --output FOLDER [options]\nOptions");
+  po::options_description known(
+      "Usage: evaluate edges INPUT --output FOLDER [options]\n"
+      "Measures how edges are extracted from scans and labelled in the map: compression,\n"
+      "repeatability, time, and in simulated worlds precision, coverage and the causes of false\n"
+      "edges. Writes FOLDER/edges.md, edges.csv and edges.png and prints the first.\nOptions");
   addRecordingOptions(known);
+  auto add = known.add_options();
+  add("output,o", po::value<std::string>()->required(), "folder for the results; made if need be");
+  add("voxel-sizes", po::value<Sizes>()->multitoken(), "of the map, m (default: 0.05 0.1 0.2 0.4)");
+  add("pair-step", po::value<int64_t>()->default_value(5),
+      "repeatability is between scans i and i + N of those taken");
   return known;
+}
+
+EdgeMeasureOptions measureOptionsOf(const po::variables_map& given) {
+  EdgeMeasureOptions options;
+  if (given.count("voxel-sizes") > 0) options.voxel_sizes = given["voxel-sizes"].as<Sizes>();
+  for (const double size : options.voxel_sizes) {
+    if (size >= 0.01 && size <= 10.0) continue;
+    throw std::invalid_argument("--voxel-sizes must be 0.01 to 10 m");
+  }
+  const auto step = given["pair-step"].as<int64_t>();
+  if (step < 1) throw std::invalid_argument("--pair-step must be at least 1");
+  options.pair_step = static_cast<size_t>(step);
+  return options;
 }
 
 }  // namespace
@@ -19,8 +50,20 @@ po::options_description describe() {
 void evaluateEdges(const Arguments& arguments) {
   const auto given = parseArguments(arguments, describe(), "input");
   if (!given) return;
+  const EdgeMeasureOptions options = measureOptionsOf(*given);
+  const fs::path folder = (*given)["output"].as<std::string>();
   const Recording recording = makeRecording(recordingOptionsOf(*given));
-  std::cout << recording.name << ": " << recording.scans.size() << " scans\n";
+  makeFolder(folder);
+  const Table table = measureEdges(recording, options, [](const std::string& note) {
+    std::cerr << "evaluate: " << note << "\n";
+  });
+  const std::string markdown = edgesMarkdown(recording, options, table);
+  writeFile(folder / "edges.csv", table.csv());
+  writeFile(folder / "edges.md", markdown);
+  std::cout << markdown;
+  const bool drawn =
+      runScript("plot_edges", {folder / "edges.csv", "--output", folder / "edges.png"});
+  if (!drawn) std::cerr << "evaluate: edges.png was not drawn\n";
 }
 
 }  // namespace edgevox

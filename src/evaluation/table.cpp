@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +41,9 @@ void Table::set(const std::string& column, double value) {
 }
 
 void Table::set(const std::string& column, const std::string& value) {
+  if (value.find_first_of(",\"|\n") != std::string::npos) {
+    throw std::invalid_argument("no text for a table: " + value);
+  }
   rows_.back()[positionOf(column)] = {value, value};
 }
 
@@ -66,6 +70,9 @@ std::string Table::markdown(const std::vector<std::string>& columns, size_t keys
   std::string text =
       markdownLine(titles) + markdownLine(std::vector<std::string>(shown.size(), "---"));
   for (const auto& row : rows_) {
+    const bool empty = std::all_of(shown.begin() + static_cast<std::ptrdiff_t>(keys), shown.end(),
+                                   [&](size_t i) { return row[i].csv.empty(); });
+    if (empty) continue;
     std::vector<std::string> cells;
     for (const size_t i : shown) cells.push_back(row[i].csv.empty() ? "-" : row[i].markdown);
     text += markdownLine(cells);

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/edge_measures.hpp"
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "edgevox/edge_extractor.hpp"
+#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/stage_timer.hpp"
+#include "evaluation/cloud_points.hpp"
+#include "evaluation/edge_truth.hpp"
+#include "evaluation/labelled_voxels.hpp"
+#include "evaluation/octree_leaves.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kMapLevels = 8.0;     // coarsest voxel of the map / finest; labels need one level
+constexpr size_t kJudgedInScan = 20;   // false edges, at most
+constexpr size_t kJudgedInMap = 1000;  // the same
+
+struct Method {
+  const char* name;
+  EdgeMode mode;
+  bool support;
+};
+constexpr Method kMethods[] = {
+    {"scan as published", EdgeMode::kPaper, false},
+    {"scan without support", EdgeMode::kDefault, false},
+    {"scan with support", EdgeMode::kDefault, true},
+};
+
+EdgeConfig configOf(const Method& method) {
+  EdgeConfig config;
+  config.mode = method.mode;
+  if (!method.support) config.scan_support = 0.0;
+  return config;
+}
+
+/// Occupied voxels over what is left of them.
+class Compression {
+ public:
+  void add(size_t occupied, size_t kept) {
+    ++scans_;
+    occupied_ += static_cast<double>(occupied);
+    kept_ += static_cast<double>(kept);
+    if (kept == 0) return;
+    ++ratios_;
+    sum_of_ratios_ += static_cast<double>(occupied) / static_cast<double>(kept);
+  }
+
+  void write(Table& table) const {
+    const auto scans = static_cast<double>(scans_);
+    table.set("occupied", occupied_ / scans);
+    table.set("kept", kept_ / scans);
+    table.set("compression_mean", sum_of_ratios_ / ratios_);
+    table.set("compression_all", occupied_ / kept_);
+  }
+
+ private:
+  size_t scans_ = 0;
+  double occupied_ = 0.0;
+  double kept_ = 0.0;
+  double ratios_ = 0.0;  // of scans that have edges
+  double sum_of_ratios_ = 0.0;
+};
+
+/// Sums over the scans of a recording, by one method at one voxel size.
+struct ScanSums {
+  Compression compression;
+  Agreement with_scans;
+  Agreement with_map;
+  Recall recall;
+  TruthScore truth;
+  double seconds = 0.0;
+};
+
+void writeTruth(const TruthScore& truth, Table& table) {
+  table.set("precision", truth.precision());
+  table.set("chance", truth.chance());
+  table.set("coverage", truth.coverage());
+  table.set("false_rim", truth.causeShare(FalseEdgeCause::kRimOfView));
+  table.set("false_jump", truth.causeShare(FalseEdgeCause::kRangeJump));
+  table.set("false_gap", truth.causeShare(FalseEdgeCause::kScanLineGap));
+  table.set("false_other", truth.causeShare(FalseEdgeCause::kNothingGone));
+}
+
+void writeSums(const ScanSums& sums, size_t scans, Table& table) {
+  sums.compression.write(table);
+  table.set("again_edges", sums.with_scans.edgeShare());
+  table.set("again_others", sums.with_scans.otherShare());
+  table.set("above_chance", sums.with_scans.edgeShare() - sums.with_scans.otherShare());
+  table.set("map_precision", sums.with_map.edgeShare());
+  table.set("map_chance", sums.with_map.otherShare());
+  table.set("map_recall", sums.recall.share());
+  writeTruth(sums.truth, table);
+  table.set("ms", 1e3 * sums.seconds / static_cast<double>(scans));
+}
+
+Table emptyTable() {
+  return Table({{"voxel_m", "voxel [m]"},
+                {"method", "edges of"},
+                {"occupied", "occupied", 0},
+                {"kept", "kept", 0},
+                {"compression_mean", "compression, mean a scan"},
+                {"compression_all", "of all"},
+                {"again_edges", "edges found again", 3},
+                {"again_others", "others found again", 3},
+                {"above_chance", "above chance", 3},
+                {"map_precision", "in the map too", 3},
+                {"map_chance", "the same of others", 3},
+                {"map_recall", "recall of the map's", 3},
+                {"precision", "precision", 3},
+                {"chance", "chance", 3},
+                {"coverage", "coverage", 3},
+                {"false_rim", "rim of the view"},
+                {"false_jump", "range jump"},
+                {"false_gap", "gap between scan lines"},
+                {"false_other", "other"},
+                {"ms", "CPU a scan [ms]"}});
+}
+
+/// All methods at one voxel size.
+class SizeMeasurement {
+ public:
+  SizeMeasurement(const Recording& recording, const EdgeTruth* truth, double voxel_size,
+                  size_t pair_step)
+      : recording_(recording),
+        truth_(truth),
+        voxel_size_(voxel_size),
+        pair_step_(pair_step),
+        voxelizer_(VoxelizerConfig(), voxel_size),
+        map_(voxel_size, kMapLevels * voxel_size, MapConfig(), EdgeConfig(), 1) {
+    if (truth != nullptr) judge_ = std::make_unique<EdgeJudge>(*truth, voxel_size);
+    buildMap();
+  }
+
+  void measure(Table& table, const std::function<void(const std::string&)>& note) {
+    for (const Method& method : kMethods) {
+      note("edges of a " + std::string(method.name));
+      startRow(method.name, table);
+      writeSums(measureScans(method), recording_.scans.size(), table);
+    }
+    note("edges of the map");
+    startRow("map", table);
+    measureMap(table);
+    note("octrees");
+    measureOctrees(table);
+  }
+
+ private:
+  void startRow(const std::string& method, Table& table) const {
+    table.addRow();
+    table.set("voxel_m", voxel_size_);
+    table.set("method", method);
+  }
+
+  void buildMap() {
+    for (size_t i = 0; i < recording_.scans.size(); ++i) {
+      const VoxelScan scan = voxelizer_.voxelize(recording_.scans[i].view);
+      map_.add(placedCentroids(recording_, i, scan),
+               recording_.scans[i].T_map_sensor.translation());
+    }
+    StageTimer timer(Clock::kProcessCpu);
+    map_.label();
+    label_seconds_ = timer.lap();
+    labelled_map_ = labelledVoxels(map_);
+    map_cells_ = cellsOf(labelled_map_, Pose::Identity());
+  }
+
+  ScanSums measureScans(const Method& method) {
+    ScanSums sums;
+    EdgeExtractor extractor(configOf(method), 1);
+    std::deque<LabelledVoxels> before;
+    for (size_t i = 0; i < recording_.scans.size(); ++i) {
+      VoxelScan scan = voxelizer_.voxelize(recording_.scans[i].view);
+      StageTimer timer(Clock::kProcessCpu);
+      extractor.extract(scan);
+      sums.seconds += timer.lap();
+      LabelledVoxels voxels = labelledVoxels(recording_, i, scan);
+      addScan(i, voxels, sums);
+      if (before.size() == pair_step_) {
+        const Cells cells = cellsOf(voxels, voxels.T_map_grid);
+        sums.with_scans += agreement(before.front(), cells, voxels.T_map_grid);
+        before.pop_front();
+      }
+      before.push_back(std::move(voxels));
+    }
+    return sums;
+  }
+
+  void addScan(size_t i, const LabelledVoxels& voxels, ScanSums& sums) const {
+    sums.compression.add(voxels.occupied(), voxels.edges);
+    sums.with_map += agreement(voxels, map_cells_, Pose::Identity());
+    sums.recall += recallOf(voxels, map_cells_.edges);
+    if (judge_ == nullptr) return;
+    sums.truth += judge_->score(voxels, truth_->seen_by[i]);
+    const SimulatedTruth& simulated = *recording_.truth;
+    const FalseEdgeJudge judge(simulated.world, simulated.sensor,
+                               {recording_.scans[i].T_map_sensor});
+    const CauseCounts causes = judge_->causes(
+        voxels, judge, kJudgedInScan,
+        [&](const LabelledVoxel& edge) { return recording_.poseAt(i, edge.time_offset); });
+    TruthScore caused;
+    caused.causes = causes;
+    sums.truth += caused;
+  }
+
+  void measureMap(Table& table) const {
+    Compression compression;
+    compression.add(labelled_map_.occupied(), labelled_map_.edges);
+    compression.write(table);
+    table.set("ms", 1e3 * label_seconds_ / static_cast<double>(recording_.scans.size()));
+    if (judge_ == nullptr) return;
+    TruthScore score = judge_->score(labelled_map_, truth_->seen);
+    std::vector<Pose> poses;
+    for (const RecordedScan& scan : recording_.scans) poses.push_back(scan.T_map_sensor);
+    const SimulatedTruth& simulated = *recording_.truth;
+    const FalseEdgeJudge judge(simulated.world, simulated.sensor, std::move(poses));
+    score.causes = judge_->causes(labelled_map_, judge, kJudgedInMap,
+                                  [](const LabelledVoxel&) { return Pose::Identity(); });
+    writeTruth(score, table);
+  }
+
+  void measureOctrees(Table& table) {
+    Compression leaves;
+    Compression merged;
+    for (const RecordedScan& scan : recording_.scans) {
+      VoxelScan voxels = voxelizer_.voxelize(scan.view);
+      const size_t occupied = EdgeExtractor(EdgeConfig(), 1).extract(voxels).occupied;
+      addOctree(pointsOf(scan.view, VoxelizerConfig()), occupied, leaves, merged);
+    }
+    Compression map_leaves;
+    Compression map_merged;
+    addOctree(centroidsOf(map_, map_.hitVoxels()), labelled_map_.occupied(), map_leaves,
+              map_merged);
+    writeOctree("octree of a scan", leaves, table);
+    writeOctree("merged octree of a scan", merged, table);
+    writeOctree("octree of the map", map_leaves, table);
+    writeOctree("merged octree of the map", map_merged, table);
+  }
+
+  void addOctree(const std::vector<Eigen::Vector3f>& points, size_t occupied, Compression& leaves,
+                 Compression& merged) const {
+    std::vector<VoxelIndex> keys = octreeLeaves(points, voxel_size_);
+    leaves.add(occupied, keys.size());
+    merged.add(occupied, mergedLeafCount(std::move(keys)));
+  }
+
+  void writeOctree(const char* name, const Compression& compression, Table& table) const {
+    startRow(name, table);
+    compression.write(table);
+  }
+
+  const Recording& recording_;
+  const EdgeTruth* truth_;  // null unless simulated
+  double voxel_size_;
+  size_t pair_step_;
+  Voxelizer voxelizer_;
+  OccupiedVoxelMap map_;
+  std::unique_ptr<EdgeJudge> judge_;  // null unless simulated
+  LabelledVoxels labelled_map_;
+  Cells map_cells_;
+  double label_seconds_ = 0.0;
+};
+
+}  // namespace
+
+Table measureEdges(const Recording& recording, const EdgeMeasureOptions& options,
+                   const std::function<void(const std::string&)>& note) {
+  std::unique_ptr<EdgeTruth> truth;
+  if (recording.truth) {
+    note("true edges");
+    truth = std::make_unique<EdgeTruth>(recording);
+  }
+  Table table = emptyTable();
+  for (const double size : options.voxel_sizes) {
+    note("map of " + std::to_string(std::lround(1e3 * size)) + " mm voxels");
+    SizeMeasurement(recording, truth.get(), size, options.pair_step).measure(table, note);
+  }
+  return table;
+}
+
+}  // namespace edgevox

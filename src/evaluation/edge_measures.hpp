@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "evaluation/recording.hpp"
+#include "evaluation/table.hpp"
+
+namespace edgevox {
+
+struct EdgeMeasureOptions {
+  std::vector<double> voxel_sizes = {0.05, 0.1, 0.2, 0.4};  ///< of the map [m]
+  size_t pair_step = 5;                                     ///< scans from the first of a pair on
+};
+
+/// The extractors by name: as published, the default without and with its support filter, the
+/// accumulated map, and octrees for comparison. A row for each at each voxel size.
+/// `note` is told what is being measured. Throws ConfigError.
+Table measureEdges(const Recording& recording, const EdgeMeasureOptions& options,
+                   const std::function<void(const std::string&)>& note);
+
+/// The table in parts, with what its columns mean.
+std::string edgesMarkdown(const Recording& recording, const EdgeMeasureOptions& options,
+                          const Table& table);
+
+}  // namespace edgevox
