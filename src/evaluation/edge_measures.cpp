@@ -162,12 +162,16 @@ class SizeMeasurement {
       const VoxelScan scan = voxelizer_.voxelize(recording_.scans[i].view);
       map_.add(placedCentroids(recording_, i, scan),
                recording_.scans[i].T_map_sensor.translation());
+      if (map_.labelDue() || i + 1 == recording_.scans.size()) labelMap();
     }
-    StageTimer timer(Clock::kProcessCpu);
-    map_.label();
-    label_seconds_ = timer.lap();
     labelled_map_ = labelledVoxels(map_);
     map_cells_ = cellsOf(labelled_map_, Pose::Identity());
+  }
+
+  void labelMap() {
+    StageTimer timer(Clock::kProcessCpu);
+    map_.label();
+    label_seconds_ += timer.lap();
   }
 
   ScanSums measureScans(const Method& method) {

@@ -20,6 +20,7 @@ constexpr double kTruthReach = 2.0;  ///< voxels, from the centre of an edge vox
 /// The creases of a world, its corners and the rims of its solids among them, and which pieces of
 /// them the scans have seen.
 struct EdgeTruth {
+  EdgeTruth() = default;
   /// Of a simulated recording.
   explicit EdgeTruth(const Recording& recording);
 

@@ -33,7 +33,8 @@ constexpr const char* kCompression =
     "ratios, and the ratio of the sums. For an octree the occupied leaves of pcl::octree of the "
     "same leaf size are kept, on the points of each scan or on the centroids of the map's voxels "
     "(its "
-    "grid begins at the first point, so that a surface on a border between two layers of voxels "
+    "grid is laid out from the first point, so that a surface on a border between two layers of "
+    "voxels "
     "may "
     "lie within one layer of leaves); `merged`: eight occupied leaves of one parent count as one, "
     "at all levels. What the octrees "
@@ -48,7 +49,7 @@ constexpr const char* kFalse =
     "hit "
     "(map: not by two scans). Other: nothing is missing.";
 constexpr const char* kTime =
-    "Of the extraction alone, one thread. The map is labelled once, at the end.";
+    "Of the extraction alone, one thread. The map is labelled after every fifth scan.";
 
 std::string repeatability(const EdgeMeasureOptions& options) {
   return "Of the voxels of scan i that lie in or next to an occupied voxel of scan i + " +

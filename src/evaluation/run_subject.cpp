@@ -31,8 +31,9 @@ void evaluateRun(const Arguments& arguments) {
   const auto given = parseArguments(arguments, describe(), "folder");
   if (!given) return;
   const fs::path folder = (*given)["folder"].as<std::string>();
-  const auto errors = evaluate(readTum(folder / "trajectory.tum"),
-                               readTum((*given)["reference"].as<std::string>()));
+  const Trajectory estimate = readTum(folder / "trajectory.tum");
+  const Trajectory reference = readTum((*given)["reference"].as<std::string>());
+  const TrajectoryErrors errors = evaluate(estimate, reference);
   writeFile(folder / "errors.csv", errorsCsv(errors));
   std::cout << errorsReport(errors).json();
 }

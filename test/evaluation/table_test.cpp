@@ -25,12 +25,23 @@ TEST(Table, CsvKeepsWhatMarkdownRounds) {
   EXPECT_EQ(twoRows().csv(), "voxel,name,share,unused\n0.05,scan,0.123457,\n0.1,,,\n");
 }
 
-TEST(Table, MarkdownLeavesOutEmptyColumns) {
+TEST(Table, MarkdownLeavesOutEmptyColumnsAndRows) {
   EXPECT_EQ(twoRows().markdown({"voxel", "unused", "share"}, 1),
-            "| voxel [m] | share |\n| --- | --- |\n| 0.05 | 0.123 |\n| 0.10 | - |\n");
+            "| voxel [m] | share |\n| --- | --- |\n| 0.05 | 0.123 |\n");
+  Table table = twoRows();
+  table.set("unused", 7.0);
+  EXPECT_EQ(table.markdown({"voxel", "unused", "share"}, 1),
+            "| voxel [m] | none | share |\n| --- | --- | --- |\n| 0.05 | - | 0.123 |\n"
+            "| 0.10 | 7.00 | - |\n");
 }
 
 TEST(Table, NothingButKeysIsNoTable) { EXPECT_EQ(twoRows().markdown({"voxel", "unused"}, 1), ""); }
+
+TEST(Table, TextThatWouldBreakTheFormatsIsAnError) {
+  Table table = twoRows();
+  EXPECT_THROW(table.set("name", "a, b"), std::invalid_argument);
+  EXPECT_THROW(table.set("name", "a | b"), std::invalid_argument);
+}
 
 TEST(Table, UnknownColumnIsAnError) {
   Table table = twoRows();

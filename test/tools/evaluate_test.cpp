@@ -63,5 +63,34 @@ TEST_F(EvaluateTest, saysWhatIsMissing) {
   EXPECT_NE(std::string::npos, unknown.output.find("'maps' is not known")) << unknown.output;
 }
 
+TEST_F(EvaluateTest, measuresEdges) {
+  const std::filesystem::path out = folder_ / "edges";
+  const std::string arguments = " --scans 3 --every 40 --voxel-sizes 0.4 --pair-step 1 --output ";
+  const Outcome outcome = evaluateRun("edges corridor:16" + arguments + out.string());
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  const std::string text = contentOf(out / "edges.md");
+  EXPECT_NE(std::string::npos, text.find("3 scans")) << text;
+  EXPECT_NE(std::string::npos, text.find("| 0.40 | scan with support |")) << text;
+  EXPECT_NE(std::string::npos, text.find("False edges by cause")) << text;
+  EXPECT_NE(std::string::npos, outcome.output.find(text));
+  const std::string table = contentOf(out / "edges.csv");
+  EXPECT_EQ(0U, table.find("voxel_m,method,"));
+  const bool drawn = std::filesystem::exists(out / "edges.png");
+  EXPECT_NE(drawn, outcome.output.find("edges.png was not drawn") != std::string::npos);
+}
+
+TEST_F(EvaluateTest, refusesEdgesOfNothing) {
+  const std::string output = " --output " + (folder_ / "edges").string();
+  const Outcome bag = evaluateRun("edges /none.bag" + output);
+  EXPECT_EQ(1, bag.exit_code);
+  EXPECT_NE(std::string::npos, bag.output.find("/none.bag")) << bag.output;
+  const Outcome sensor = evaluateRun("edges corridor:17" + output);
+  EXPECT_EQ(2, sensor.exit_code);
+  EXPECT_NE(std::string::npos, sensor.output.find("unknown sensor '17'")) << sensor.output;
+  EXPECT_EQ(2, evaluateRun("edges corridor:16 --voxel-sizes 0" + output).exit_code);
+  EXPECT_EQ(2, evaluateRun("edges corridor:16 --scans 0" + output).exit_code);
+  EXPECT_EQ(2, evaluateRun("edges corridor:16").exit_code);
+}
+
 }  // namespace
 }  // namespace edgevox

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/edge_measures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "edgevox/edge_extractor.hpp"
+#include "edgevox/statistics.hpp"
+
+namespace edgevox {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line + ",");
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// The rows by their methods.
+std::map<std::string, Row> rowsOf(const Table& table) {
+  std::istringstream in(table.csv());
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> names = split(line);
+  std::map<std::string, Row> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split(line);
+    Row row;
+    for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
+    rows[row["method"]] = row;
+  }
+  return rows;
+}
+
+double number(const Row& row, const std::string& column) {
+  const std::string& text = row.at(column);
+  EXPECT_FALSE(text.empty()) << column;
+  return std::atof(text.c_str());
+}
+
+Recording standingStill() {
+  RecordingOptions options;
+  options.input = "building:32";
+  options.every = 2;
+  options.most = 5;
+  return makeRecording(options);
+}
+
+EdgeMeasureOptions smallOptions() {
+  EdgeMeasureOptions options;
+  options.voxel_sizes = {0.2};
+  options.pair_step = 2;
+  return options;
+}
+
+Table measure(const Recording& recording) {
+  return measureEdges(recording, smallOptions(), [](const std::string&) {});
+}
+
+class EdgeMeasuresTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { rows_ = rowsOf(measure(standingStill())); }
+
+  static std::map<std::string, Row> rows_;
+};
+std::map<std::string, Row> EdgeMeasuresTest::rows_;
+
+TEST_F(EdgeMeasuresTest, AgreeWithTheExtractorItself) {
+  Voxelizer voxelizer({}, 0.2);
+  EdgeExtractor extractor({}, 1);
+  std::vector<double> occupied;
+  std::vector<double> edges;
+  std::vector<double> ratios;
+  const Recording recording = standingStill();
+  for (const RecordedScan& recorded : recording.scans) {
+    VoxelScan scan = voxelizer.voxelize(recorded.view);
+    const EdgeCount count = extractor.extract(scan);
+    occupied.push_back(static_cast<double>(count.occupied));
+    edges.push_back(static_cast<double>(count.edges));
+    ratios.push_back(occupied.back() / edges.back());
+  }
+  const Row& row = rows_.at("scan with support");
+  EXPECT_NEAR(number(row, "occupied"), mean(occupied), 0.1);
+  EXPECT_NEAR(number(row, "kept"), mean(edges), 0.1);
+  EXPECT_NEAR(number(row, "compression_mean"), mean(ratios), 1e-4);
+  EXPECT_NEAR(number(row, "compression_all"), mean(occupied) / mean(edges), 1e-4);
+}
+
+TEST_F(EdgeMeasuresTest, TellTheExtractorsApart) {
+  ASSERT_EQ(rows_.size(), 8U);
+  const Row& paper = rows_.at("scan as published");
+  const Row& plain = rows_.at("scan without support");
+  const Row& supported = rows_.at("scan with support");
+  const Row& map = rows_.at("map");
+  // The sensor stands still: what is real is found again.
+  EXPECT_GT(number(supported, "again_edges"), 0.8);
+  EXPECT_GT(number(supported, "above_chance"), 0.5);
+  EXPECT_GT(number(supported, "precision"), number(plain, "precision") + 0.05);
+  EXPECT_GT(number(plain, "precision"), number(paper, "precision"));
+  EXPECT_GT(number(paper, "precision"), number(paper, "chance"));
+  EXPECT_LT(number(supported, "map_recall"), number(plain, "map_recall"));
+  EXPECT_GT(number(map, "coverage"), 0.5);
+  EXPECT_GT(number(map, "compression_all"), 1.5);
+  for (const Row* row : {&paper, &plain, &supported, &map}) {
+    EXPECT_NEAR(number(*row, "false_rim") + number(*row, "false_jump") + number(*row, "false_gap") +
+                    number(*row, "false_other"),
+                1.0, 1e-4);
+    EXPECT_GT(number(*row, "ms"), 0.0);
+  }
+  const double octree = number(rows_.at("octree of a scan"), "compression_all");
+  EXPECT_NEAR(octree, 1.0, 0.3);  // the same leaf, in another place
+  EXPECT_GT(number(rows_.at("merged octree of a scan"), "compression_all"), octree);
+}
+
+TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {
+  Recording recording = standingStill();
+  recording.truth.reset();
+  const Table table = measure(recording);
+  const auto rows = rowsOf(table);
+  EXPECT_EQ(rows.at("map").at("precision"), "");
+  EXPECT_NE(rows.at("scan with support").at("above_chance"), "");
+  const std::string text = edgesMarkdown(recording, smallOptions(), table);
+  EXPECT_NE(text.find("## Repeatability"), std::string::npos);
+  EXPECT_EQ(text.find("## Truth"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edgevox
