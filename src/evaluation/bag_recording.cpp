@@ -35,8 +35,7 @@ void forEachReadable(BagReader& bag, const Visit& visit) {
 std::vector<RecordedScan> readScans(BagReader& bag, const RecordingOptions& options) {
   std::vector<RecordedScan> scans;
   forEachReadable(bag, [&](size_t index, const auto& message, const CloudView& view) {
-    const bool wanted = index % options.every == 0 && scans.size() < options.most;
-    if (wanted) scans.push_back(scanOf(message, view));
+    if (isWanted(index, scans.size(), options)) scans.push_back(scanOf(message, view));
   });
   return scans;
 }

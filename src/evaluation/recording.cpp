@@ -78,8 +78,8 @@ sim::Scan unpacked(const RecordedScan& recorded) {
 
 std::vector<int> chosenSweeps(int sweeps, const RecordingOptions& options) {
   std::vector<int> chosen;
-  for (size_t sweep = 0; sweep < static_cast<size_t>(sweeps); sweep += options.every) {
-    if (chosen.size() < options.most) chosen.push_back(static_cast<int>(sweep));
+  for (size_t sweep = 0; sweep < static_cast<size_t>(sweeps); ++sweep) {
+    if (isWanted(sweep, chosen.size(), options)) chosen.push_back(static_cast<int>(sweep));
   }
   return chosen;
 }
@@ -128,6 +128,11 @@ Pose Recording::poseAt(size_t scan, double time_offset) const {
   return recorded.T_map_sensor * moved(twist, time_offset);
 }
 
+bool isWanted(size_t scan, size_t taken, const RecordingOptions& options) {
+  return scan >= options.first && (scan - options.first) % options.every == 0 &&
+         taken < options.most;
+}
+
 bool isSimulated(const std::string& input) {
   return input.find(':') != std::string::npos && !std::filesystem::exists(input);
 }
@@ -137,7 +142,8 @@ Recording makeRecording(const RecordingOptions& options) {
   if (options.most == 0) throw std::invalid_argument("--scans must be at least 1");
   Recording recording = isSimulated(options.input) ? simulate(options) : readBagRecording(options);
   if (recording.scans.empty()) {
-    throw std::invalid_argument("no scan of '" + options.input + "' has a pose; check --poses");
+    throw std::invalid_argument("no scan of '" + options.input +
+                                "' is left; check --first and --poses");
   }
   return recording;
 }

@@ -21,7 +21,8 @@ struct RecordingOptions {
   std::string input;            ///< a bag, or WORLD:SENSOR[:SEED] as in "building:32"
   std::string topic;            ///< of a bag; empty: its only one with clouds
   std::filesystem::path poses;  ///< TUM, of a bag's sensor; empty: as Pipeline finds them
-  size_t every = 1;             ///< take every n-th scan ...
+  size_t first = 0;             ///< take the scan of this number, counted from 0, ...
+  size_t every = 1;             ///< ... and every n-th from there on ...
   size_t most = 100;            ///< ... and so many at most
 };
 
@@ -55,6 +56,9 @@ struct Recording {
   /// T_map_sensor `time_offset` s after the stamp of a scan.
   Pose poseAt(size_t scan, double time_offset) const;
 };
+
+/// Whether a scan is one of those to take, `taken` of which were before it.
+bool isWanted(size_t scan, size_t taken, const RecordingOptions& options);
 
 /// True if `input` has the form WORLD:SENSOR[:SEED] and there is no such file.
 bool isSimulated(const std::string& input);

@@ -9,10 +9,11 @@ namespace {
 
 namespace po = boost::program_options;
 
-size_t countOf(const po::variables_map& given, const char* name) {
+size_t countOf(const po::variables_map& given, const char* name, int64_t least) {
   const auto count = given[name].as<int64_t>();
-  if (count >= 1) return static_cast<size_t>(count);
-  throw std::invalid_argument(std::string("--") + name + " must be at least 1");
+  if (count >= least) return static_cast<size_t>(count);
+  throw std::invalid_argument(std::string("--") + name + " must be at least " +
+                              std::to_string(least));
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ void addRecordingOptions(po::options_description& known) {
       "of a bag's clouds");
   add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),
       "of a bag's sensor at the clouds' stamps, TUM format");
-  add("every", po::value<int64_t>()->default_value(1), "take every N-th scan");
+  add("first", po::value<int64_t>()->default_value(0), "begin with this scan, counted from 0");
+  add("every", po::value<int64_t>()->default_value(1), "take every N-th scan from there on");
   add("scans", po::value<int64_t>()->default_value(100), "take so many scans at most");
 }
 
@@ -57,8 +59,9 @@ RecordingOptions recordingOptionsOf(const po::variables_map& given) {
   options.input = given["input"].as<std::string>();
   options.topic = given["topic"].as<std::string>();
   options.poses = given["poses"].as<std::string>();
-  options.every = countOf(given, "every");
-  options.most = countOf(given, "scans");
+  options.first = countOf(given, "first", 0);
+  options.every = countOf(given, "every", 1);
+  options.most = countOf(given, "scans", 1);
   return options;
 }
 

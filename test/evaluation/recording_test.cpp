@@ -91,6 +91,17 @@ TEST_F(BagRecordingTest, TakesThePosesOfTheFile) {
   EXPECT_LT(differenceOf(recording.poseAt(1, -0.1), run_.truth[1].pose), 1e-3);
 }
 
+TEST_F(BagRecordingTest, BeginsWithTheFirstAskedFor) {
+  options_.first = 1;
+  options_.every = 3;
+  const Recording recording = makeRecording(options_);
+  ASSERT_EQ(recording.scans.size(), 2U);
+  EXPECT_EQ(recording.scans[0].view.stamp, run_.truth[1].stamp);
+  EXPECT_EQ(recording.scans[1].view.stamp, run_.truth[4].stamp);
+  options_.first = kSweeps;
+  EXPECT_THROW(makeRecording(options_), std::invalid_argument);
+}
+
 TEST_F(BagRecordingTest, LeavesOutScansWithoutPose) {
   const std::string poses = (folder_ / "truth.tum").string();
   writeTum(poses, {run_.truth.begin(), run_.truth.begin() + 4});
