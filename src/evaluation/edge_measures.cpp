@@ -32,8 +32,7 @@ constexpr Method kMethods[] = {
     {"scan with support", EdgeMode::kDefault, true},
 };
 
-EdgeConfig configOf(const Method& method) {
-  EdgeConfig config;
+EdgeConfig configOf(const Method& method, EdgeConfig config) {
   config.mode = method.mode;
   if (!method.support) config.scan_support = 0.0;
   return config;
@@ -126,13 +125,13 @@ Table emptyTable() {
 class SizeMeasurement {
  public:
   SizeMeasurement(const Recording& recording, const EdgeTruth* truth, double voxel_size,
-                  size_t pair_step)
+                  const EdgeMeasureOptions& options)
       : recording_(recording),
         truth_(truth),
         voxel_size_(voxel_size),
-        pair_step_(pair_step),
-        voxelizer_(VoxelizerConfig(), voxel_size),
-        map_(voxel_size, kMapLevels * voxel_size, MapConfig(), EdgeConfig(), 1) {
+        options_(options),
+        voxelizer_(options.config.voxelizer, voxel_size),
+        map_(voxel_size, kMapLevels * voxel_size, options.config.map, options.config.edges, 1) {
     if (truth != nullptr) judge_ = std::make_unique<EdgeJudge>(*truth, voxel_size);
     buildMap();
   }
@@ -176,7 +175,7 @@ class SizeMeasurement {
 
   ScanSums measureScans(const Method& method) {
     ScanSums sums;
-    EdgeExtractor extractor(configOf(method), 1);
+    EdgeExtractor extractor(configOf(method, options_.config.edges), 1);
     std::deque<LabelledVoxels> before;
     for (size_t i = 0; i < recording_.scans.size(); ++i) {
       VoxelScan scan = voxelizer_.voxelize(recording_.scans[i].view);
@@ -185,7 +184,7 @@ class SizeMeasurement {
       sums.seconds += timer.lap();
       LabelledVoxels voxels = labelledVoxels(recording_, i, scan);
       addScan(i, voxels, sums);
-      if (before.size() == pair_step_) {
+      if (before.size() == options_.pair_step) {
         const Cells cells = cellsOf(voxels, voxels.T_map_grid);
         sums.with_scans += agreement(before.front(), cells, voxels.T_map_grid);
         before.pop_front();
@@ -233,8 +232,8 @@ class SizeMeasurement {
     Compression merged;
     for (const RecordedScan& scan : recording_.scans) {
       VoxelScan voxels = voxelizer_.voxelize(scan.view);
-      const size_t occupied = EdgeExtractor(EdgeConfig(), 1).extract(voxels).occupied;
-      addOctree(pointsOf(scan.view, VoxelizerConfig()), occupied, leaves, merged);
+      const size_t occupied = EdgeExtractor(options_.config.edges, 1).extract(voxels).occupied;
+      addOctree(pointsOf(scan.view, options_.config.voxelizer), occupied, leaves, merged);
     }
     Compression map_leaves;
     Compression map_merged;
@@ -261,7 +260,7 @@ class SizeMeasurement {
   const Recording& recording_;
   const EdgeTruth* truth_;  // null unless simulated
   double voxel_size_;
-  size_t pair_step_;
+  const EdgeMeasureOptions& options_;
   Voxelizer voxelizer_;
   OccupiedVoxelMap map_;
   std::unique_ptr<EdgeJudge> judge_;  // null unless simulated
@@ -282,7 +281,7 @@ Table measureEdges(const Recording& recording, const EdgeMeasureOptions& options
   Table table = emptyTable();
   for (const double size : options.voxel_sizes) {
     note("map of " + std::to_string(std::lround(1e3 * size)) + " mm voxels");
-    SizeMeasurement(recording, truth.get(), size, options.pair_step).measure(table, note);
+    SizeMeasurement(recording, truth.get(), size, options).measure(table, note);
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edgevox/config.hpp"
 #include "evaluation/recording.hpp"
 #include "evaluation/table.hpp"
 
@@ -14,6 +15,8 @@ namespace edgevox {
 struct EdgeMeasureOptions {
   std::vector<double> voxel_sizes = {0.05, 0.1, 0.2, 0.4};  ///< of the map [m]
   size_t pair_step = 5;                                     ///< scans from the first of a pair on
+  Config config;                                            ///< but for voxel_size and edges.mode
+  std::string config_name = "the defaults";                 ///< to print
 };
 
 /// The extractors by name: as published, the default without and with its support filter, the

@@ -16,16 +16,18 @@ std::string section(const Table& table, const std::string& title, const Texts& c
   return text.empty() ? "" : "\n## " + title + "\n\n" + meaning + "\n\n" + text;
 }
 
-std::string head(const Recording& recording) {
+std::string head(const Recording& recording, const EdgeMeasureOptions& options) {
   std::string text = "# Edges of " + recording.name + "\n\n" +
-                     std::to_string(recording.scans.size()) + " scans, poses " + recording.source;
+                     std::to_string(recording.scans.size()) + " scans, poses " + recording.source +
+                     ", configuration " + options.config_name;
   if (recording.without_pose > 0) {
     text += "; " + std::to_string(recording.without_pose) + " scans without a pose are left out";
   }
   return text +
          ".\n\nEdges of a scan are extracted as published (Ryde, Delmerico, Corso, eq. 5-7), or by "
          "the default without or with its support filter. The map holds all scans, deskewed, at "
-         "these poses; its occupied voxels are those that two scans have hit.\n";
+         "these poses; its occupied voxels are those hit by so many scans: " +
+         std::to_string(options.config.map.min_hits) + ".\n";
 }
 
 constexpr const char* kCompression =
@@ -47,9 +49,9 @@ constexpr const char* kFalse =
     "of the missing surface is gives the cause. Rim of the view: outside the field of view or the "
     "range from every pose. Range jump: in view of some pose, but hidden. Gap: visible, but not "
     "hit "
-    "(map: not by two scans). Other: nothing is missing.";
+    "(map: not by enough scans). Other: nothing is missing.";
 constexpr const char* kTime =
-    "Of the extraction alone, one thread. The map is labelled after every fifth scan.";
+    "Of the extraction alone, one thread. The map is labelled after every `map/label_every` scans.";
 
 std::string repeatability(const EdgeMeasureOptions& options) {
   return "Of the voxels of scan i that lie in or next to an occupied voxel of scan i + " +
@@ -73,7 +75,7 @@ std::string truth() {
 
 std::string edgesMarkdown(const Recording& recording, const EdgeMeasureOptions& options,
                           const Table& table) {
-  return head(recording) +
+  return head(recording, options) +
          section(table, "Compression", {"occupied", "kept", "compression_mean", "compression_all"},
                  kCompression) +
          section(table, "Repeatability",

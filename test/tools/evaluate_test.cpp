@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -77,6 +78,22 @@ TEST_F(EvaluateTest, measuresEdges) {
   EXPECT_EQ(0U, table.find("voxel_m,method,"));
   const bool drawn = std::filesystem::exists(out / "edges.png");
   EXPECT_NE(drawn, outcome.output.find("edges.png was not drawn") != std::string::npos);
+}
+
+TEST_F(EvaluateTest, measuresEdgesOfOtherConfigurations) {
+  const std::string arguments = "edges corridor:16 --scans 2 --voxel-sizes 0.4 --output ";
+  const auto occupiedOfMap = [&](const std::string& name, const std::string& options) {
+    const auto out = folder_ / name;
+    EXPECT_EQ(0, evaluateRun(arguments + out.string() + options).exit_code);
+    const std::string table = contentOf(out / "edges.csv");
+    const std::string row = "\n0.4,map,";
+    return std::atof(table.c_str() + table.find(row) + row.size());
+  };
+  EXPECT_GT(occupiedOfMap("once", " --set map/min_hits=1"), 1.1 * occupiedOfMap("twice", ""));
+  EXPECT_NE(std::string::npos, contentOf(folder_ / "once" / "edges.md").find("map/min_hits=1"));
+  const Outcome unknown = evaluateRun(arguments + "x --set map/hits=1");
+  EXPECT_EQ(2, unknown.exit_code);
+  EXPECT_NE(std::string::npos, unknown.output.find("map/hits")) << unknown.output;
 }
 
 TEST_F(EvaluateTest, refusesEdgesOfNothing) {
