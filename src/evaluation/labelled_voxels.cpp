@@ -52,12 +52,14 @@ LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const Vox
   return labelled;
 }
 
-LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map) {
+LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid) {
   LabelledVoxels labelled;
   labelled.voxel_size = map.voxelSize(0);
+  labelled.T_map_grid = T_map_grid;
   map.hitVoxels().forEach([&](const VoxelIndex& v) {
     const bool edge = map.edgeVoxels().test(v);
-    labelled.voxels.push_back({v, voxelCentre(v, labelled.voxel_size), 0.0, edge});
+    const Eigen::Vector3d centre = T_map_grid * voxelCentre(v, labelled.voxel_size);
+    labelled.voxels.push_back({v, centre, 0.0, edge});
     labelled.edges += edge ? 1 : 0;
   });
   return labelled;

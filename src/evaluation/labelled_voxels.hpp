@@ -31,8 +31,8 @@ struct LabelledVoxels {
 
 /// Of scan number `scan` of the recording, voxelized at half the map's voxel and labelled.
 LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const VoxelScan& voxels);
-/// Of the map's voxels with enough hits.
-LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map);
+/// Of the voxels with enough hits of a map in a grid of its own.
+LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid);
 
 /// Centroids of a scan, each at the pose of its time, map frame [m].
 std::vector<Eigen::Vector3d> placedCentroids(const Recording& recording, size_t scan,

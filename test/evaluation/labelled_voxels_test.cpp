@@ -104,7 +104,7 @@ TEST(LabelledVoxels, OfTheMapAreItsHitVoxelsAndEdges) {
   OccupiedVoxelMap map(kSize, 8 * kSize, MapConfig(), EdgeConfig(), 1);
   for (int scan = 0; scan < 2; ++scan) map.add(centroids, {50, 50, 50});
   map.label();
-  const LabelledVoxels set = labelledVoxels(map);
+  const LabelledVoxels set = labelledVoxels(map, Pose::Identity());
   EXPECT_EQ(set.occupied(), centroids.size());
   EXPECT_GT(set.edges, 12U * 18U);
   EXPECT_LT(set.edges, set.occupied() / 2);
@@ -114,6 +114,13 @@ TEST(LabelledVoxels, OfTheMapAreItsHitVoxelsAndEdges) {
   const Agreement same = agreement(set, cellsOf(set, Pose::Identity()), Pose::Identity());
   EXPECT_EQ(same.edgeShare(), 1.0);
   EXPECT_LT(same.otherShare(), 0.5);
+  const Pose T_map_grid(Eigen::Translation3d(0, 0, 9) *
+                        Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
+  const LabelledVoxels turned = labelledVoxels(map, T_map_grid);
+  EXPECT_EQ(turned.edges, set.edges);
+  const LabelledVoxel& voxel = turned.voxels[5];
+  const Eigen::Vector3d centre = voxelCentre(voxel.index, kSize);
+  EXPECT_LT((voxel.centre - Eigen::Vector3d(-centre.y(), centre.x(), centre.z() + 9)).norm(), 1e-9);
 }
 
 }  // namespace
