@@ -80,6 +80,7 @@ struct ScanSums {
 
 void writeTruth(const TruthScore& truth, Table& table) {
   table.set("precision", truth.precision());
+  table.set("precision_wide", truth.widePrecision());
   table.set("chance", truth.chance());
   table.set("coverage", truth.coverage());
   table.set("false_rim", truth.causeShare(FalseEdgeCause::kRimOfView));
@@ -114,6 +115,7 @@ Table emptyTable() {
                 {"map_chance", "the same of others", 3},
                 {"map_recall", "recall of the map's", 3},
                 {"precision", "precision", 3},
+                {"precision_wide", "within 3 voxels", 3},
                 {"chance", "chance", 3},
                 {"coverage", "coverage", 3},
                 {"false_rim", "rim of the view"},

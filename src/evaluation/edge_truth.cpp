@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/edge_truth.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include "evaluation/share.hpp"
@@ -20,6 +21,7 @@ EdgeTruth::EdgeTruth(const Recording& recording) {
 }
 
 double TruthScore::precision() const { return shareOf(true_edges, edges); }
+double TruthScore::widePrecision() const { return shareOf(wide_edges, edges); }
 double TruthScore::chance() const { return shareOf(occupied_near, occupied); }
 double TruthScore::coverage() const { return shareOf(covered, seen); }
 
@@ -31,6 +33,7 @@ double TruthScore::causeShare(FalseEdgeCause cause) const {
 TruthScore& TruthScore::operator+=(const TruthScore& more) {
   edges += more.edges;
   true_edges += more.true_edges;
+  wide_edges += more.wide_edges;
   occupied += more.occupied;
   occupied_near += more.occupied_near;
   seen += more.seen;
@@ -40,19 +43,22 @@ TruthScore& TruthScore::operator+=(const TruthScore& more) {
 }
 
 EdgeJudge::EdgeJudge(const EdgeTruth& truth, double voxel_size)
-    : creases_(truth.creases, kTruthReach * voxel_size),
+    : reach_(kTruthReach * voxel_size),
+      creases_(truth.creases, kWideReach * voxel_size),
       pieces_(truth.pieces, kTruthReach * voxel_size) {}
 
 TruthScore EdgeJudge::score(const LabelledVoxels& voxels, const std::vector<uint32_t>& seen) const {
   TruthScore score;
   std::vector<bool> covered(pieces_.segments().size(), false);
   for (const LabelledVoxel& voxel : voxels.voxels) {
-    const bool near = isTrue(voxel);
+    const double distance = creases_.distanceTo(voxel.centre);
+    const bool near = distance <= reach_;
     ++score.occupied;
     score.occupied_near += near ? 1 : 0;
     if (!voxel.edge) continue;
     ++score.edges;
     score.true_edges += near ? 1 : 0;
+    score.wide_edges += std::isfinite(distance) ? 1 : 0;
     pieces_.forEachNear(voxel.centre, [&](uint32_t piece) { covered[piece] = true; });
   }
   score.seen = seen.size();

@@ -16,6 +16,7 @@
 namespace edgevox {
 
 constexpr double kTruthReach = 2.0;  ///< voxels, from the centre of an edge voxel to a true edge
+constexpr double kWideReach = 3.0;   ///< the same, as far as the structure tensor looks aside
 
 /// The creases of a world, its corners and the rims of its solids among them, and which pieces of
 /// them the scans have seen.
@@ -35,14 +36,16 @@ using CauseCounts = std::array<size_t, kFalseEdgeCauses>;  ///< by FalseEdgeCaus
 struct TruthScore {
   size_t edges = 0;
   size_t true_edges = 0;  ///< within reach of a crease
+  size_t wide_edges = 0;  ///< within the wide reach of a crease
   size_t occupied = 0;
   size_t occupied_near = 0;  ///< the same of all occupied voxels
   size_t seen = 0;           ///< pieces
   size_t covered = 0;        ///< of these, with an edge voxel within reach
   CauseCounts causes{};      ///< of a sample of the false edges
 
-  double precision() const;  ///< NaN if there is nothing to judge, as below
-  double chance() const;     ///< precision of all occupied voxels
+  double precision() const;      ///< NaN if there is nothing to judge, as below
+  double widePrecision() const;  ///< by the wide reach
+  double chance() const;         ///< precision of all occupied voxels
   double coverage() const;
   double causeShare(FalseEdgeCause cause) const;  ///< of the false edges judged
   TruthScore& operator+=(const TruthScore& more);
@@ -54,7 +57,9 @@ class EdgeJudge {
   /// `truth` need not outlive this.
   EdgeJudge(const EdgeTruth& truth, double voxel_size);
 
-  bool isTrue(const LabelledVoxel& voxel) const { return creases_.isNear(voxel.centre); }
+  bool isTrue(const LabelledVoxel& voxel) const {
+    return creases_.distanceTo(voxel.centre) <= reach_;
+  }
   /// Without causes. `seen`: numbers of the pieces to be covered.
   TruthScore score(const LabelledVoxels& voxels, const std::vector<uint32_t>& seen) const;
   /// Of `most` false edges, evenly taken, or of all. `T_world_grid(voxel)` is the pose of the grid
@@ -66,7 +71,8 @@ class EdgeJudge {
  private:
   std::vector<LabelledVoxel> falseEdges(const LabelledVoxels& voxels, size_t most) const;
 
-  SegmentIndex creases_;
+  double reach_;          // [m]
+  SegmentIndex creases_;  // by the wide reach
   SegmentIndex pieces_;
 };
 

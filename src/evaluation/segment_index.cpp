@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace edgevox {
@@ -43,11 +44,11 @@ void SegmentIndex::insert(uint32_t number) {
   }
 }
 
-bool SegmentIndex::isNear(const Eigen::Vector3d& point) const {
-  const auto cell = cells_.find(cellOf(point));
-  if (cell == cells_.end()) return false;
-  return std::any_of(cell->second.begin(), cell->second.end(),
-                     [&](uint32_t i) { return segments_[i].distanceTo(point) <= reach_; });
+double SegmentIndex::distanceTo(const Eigen::Vector3d& point) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  forEachNear(point,
+              [&](uint32_t i) { nearest = std::min(nearest, segments_[i].distanceTo(point)); });
+  return nearest;
 }
 
 }  // namespace edgevox

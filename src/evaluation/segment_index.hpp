@@ -35,8 +35,8 @@ class SegmentIndex {
     }
   }
 
-  /// Whether there is a segment within reach of the point.
-  bool isNear(const Eigen::Vector3d& point) const;
+  /// To the nearest segment [m]; infinite if none is within reach.
+  double distanceTo(const Eigen::Vector3d& point) const;
 
  private:
   uint64_t cellOf(const Eigen::Vector3d& point) const {

@@ -39,10 +39,12 @@ TEST(EdgeJudge, ScoresPrecisionChanceAndCoverage) {
   voxels.voxels = {voxelOf({1, 0, 0}, true),    // covers the first two pieces
                    voxelOf({18, 0, 0}, true),   // the last two, of which one is seen
                    voxelOf({10, 0, 0}, false),  // near, but no edge
+                   voxelOf({5, 1, 1}, true),    // beside it, within three voxels
                    voxelOf({5, 9, 9}, true)};   // wrong
   const TruthScore score = EdgeJudge(truth, kSize).score(voxels, truth.seen);
-  EXPECT_DOUBLE_EQ(score.precision(), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(score.chance(), 3.0 / 4.0);
+  EXPECT_DOUBLE_EQ(score.precision(), 2.0 / 4.0);
+  EXPECT_DOUBLE_EQ(score.widePrecision(), 3.0 / 4.0);
+  EXPECT_DOUBLE_EQ(score.chance(), 3.0 / 5.0);
   EXPECT_EQ(score.covered, 3U);
   EXPECT_DOUBLE_EQ(score.coverage(), 3.0 / 7.0);
   EXPECT_TRUE(std::isnan(TruthScore().precision()));
