@@ -8,7 +8,6 @@
 #include "evaluation/plot.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
-#include "tools/config_file.hpp"
 
 namespace edgevox {
 namespace {
@@ -17,7 +16,6 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 using Sizes = std::vector<double>;
-using Texts = std::vector<std::string>;
 
 po::options_description describe() {
   po::options_description known(
@@ -26,30 +24,13 @@ po::options_description describe() {
       "repeatability, time, and in simulated worlds precision, coverage and the causes of false\n"
       "edges. Writes FOLDER/edges.md, edges.csv and edges.png and prints the first.\nOptions");
   addRecordingOptions(known);
+  addConfigOptions(known);
   auto add = known.add_options();
   add("output,o", po::value<std::string>()->required(), "folder for the results; made if need be");
   add("voxel-sizes", po::value<Sizes>()->multitoken(), "of the map, m (default: 0.05 0.1 0.2 0.4)");
-  add("config", po::value<std::string>()->default_value("", "the built-in values"),
-      "indoor, outdoor, terrestrial, or a YAML file");
-  add("set", po::value<Texts>()->multitoken(), "name=value ..., parameters of the configuration");
   add("pair-step", po::value<int64_t>()->default_value(5),
       "repeatability is between scans i and i + N of those taken");
   return known;
-}
-
-void configure(const po::variables_map& given, EdgeMeasureOptions& options) {
-  const auto file = given["config"].as<std::string>();
-  if (!file.empty()) {
-    applyConfigFile(findConfigFile(file), options.config);
-    options.config_name = file;
-  }
-  if (given.count("set") > 0) {
-    for (const std::string& setting : given["set"].as<Texts>()) {
-      applySetting(setting, options.config);
-      options.config_name += " " + setting;
-    }
-  }
-  validate(options.config);
 }
 
 EdgeMeasureOptions measureOptionsOf(const po::variables_map& given) {
@@ -59,7 +40,7 @@ EdgeMeasureOptions measureOptionsOf(const po::variables_map& given) {
     if (size >= 0.01 && size <= 10.0) continue;
     throw std::invalid_argument("--voxel-sizes must be 0.01 to 10 m");
   }
-  configure(given, options);
+  options.config = configOf(given, options.config_name);
   const auto step = given["pair-step"].as<int64_t>();
   if (step < 1) throw std::invalid_argument("--pair-step must be at least 1");
   options.pair_step = static_cast<size_t>(step);

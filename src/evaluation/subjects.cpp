@@ -4,10 +4,14 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "tools/config_file.hpp"
+
 namespace edgevox {
 namespace {
 
 namespace po = boost::program_options;
+
+using Texts = std::vector<std::string>;
 
 size_t countOf(const po::variables_map& given, const char* name, int64_t least) {
   const auto count = given[name].as<int64_t>();
@@ -52,6 +56,30 @@ void addRecordingOptions(po::options_description& known) {
   add("first", po::value<int64_t>()->default_value(0), "begin with this scan, counted from 0");
   add("every", po::value<int64_t>()->default_value(1), "take every N-th scan from there on");
   add("scans", po::value<int64_t>()->default_value(100), "take so many scans at most");
+}
+
+void addConfigOptions(po::options_description& known) {
+  auto add = known.add_options();
+  add("config", po::value<std::string>()->default_value("", "the built-in values"),
+      "indoor, outdoor, terrestrial, or a YAML file");
+  add("set", po::value<Texts>()->multitoken(), "name=value ..., parameters of the configuration");
+}
+
+Config configOf(const po::variables_map& given, std::string& name) {
+  Config config;
+  const auto file = given["config"].as<std::string>();
+  if (!file.empty()) {
+    applyConfigFile(findConfigFile(file), config);
+    name = file;
+  }
+  if (given.count("set") > 0) {
+    for (const std::string& setting : given["set"].as<Texts>()) {
+      applySetting(setting, config);
+      name += " " + setting;
+    }
+  }
+  validate(config);
+  return config;
 }
 
 RecordingOptions recordingOptionsOf(const po::variables_map& given) {

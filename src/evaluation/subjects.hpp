@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edgevox/config.hpp"
 #include "evaluation/recording.hpp"
 
 namespace edgevox {
@@ -16,6 +17,7 @@ using Arguments = std::vector<std::string>;  ///< that follow the subject's name
 /// Each throws boost::program_options::error or std::logic_error for arguments that are wrong.
 void evaluateRun(const Arguments& arguments);
 void evaluateEdges(const Arguments& arguments);
+void evaluateMap(const Arguments& arguments);
 
 /// The arguments by their names; the first without a name is `positional`. Nothing if help was
 /// asked for and given.
@@ -26,5 +28,10 @@ std::optional<boost::program_options::variables_map> parseArguments(
 /// Options of all subjects that work on a recording, and what they say.
 void addRecordingOptions(boost::program_options::options_description& known);
 RecordingOptions recordingOptionsOf(const boost::program_options::variables_map& given);
+
+/// The options for a configuration, the configuration given, valid, and its name to print. Throws
+/// ConfigError, FileError.
+void addConfigOptions(boost::program_options::options_description& known);
+Config configOf(const boost::program_options::variables_map& given, std::string& name);
 
 }  // namespace edgevox

@@ -19,6 +19,7 @@ struct Subject {
 constexpr Subject kSubjects[] = {
     {"run", edgevox::evaluateRun, "the trajectory of a run against a reference"},
     {"edges", edgevox::evaluateEdges, "the extraction of edges from scans and into the map"},
+    {"map", edgevox::evaluateMap, "error and capture against the size of the map"},
 };
 
 void printHelp() {
