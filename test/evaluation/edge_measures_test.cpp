@@ -3,47 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/statistics.hpp"
+#include "table_rows.hpp"
 
 namespace edgevox {
 namespace {
 
-using Row = std::map<std::string, std::string>;
+using test::number;
+using test::Row;
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line + ",");
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-/// The rows by their methods.
-std::map<std::string, Row> rowsOf(const Table& table) {
-  std::istringstream in(table.csv());
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> names = split(line);
+std::map<std::string, Row> rowsByMethod(const Table& table) {
   std::map<std::string, Row> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    Row row;
-    for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
-    rows[row["method"]] = row;
-  }
+  for (const Row& row : test::rowsOf(table)) rows[row.at("method")] = row;
   return rows;
-}
-
-double number(const Row& row, const std::string& column) {
-  const std::string& text = row.at(column);
-  EXPECT_FALSE(text.empty()) << column;
-  return std::atof(text.c_str());
 }
 
 Recording standingStill() {
@@ -67,7 +44,7 @@ Table measure(const Recording& recording) {
 
 class EdgeMeasuresTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { rows_ = rowsOf(measure(standingStill())); }
+  static void SetUpTestSuite() { rows_ = rowsByMethod(measure(standingStill())); }
 
   static std::map<std::string, Row> rows_;
 };
@@ -128,7 +105,7 @@ TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {
   Recording recording = standingStill();
   recording.truth.reset();
   const Table table = measure(recording);
-  const auto rows = rowsOf(table);
+  const auto rows = rowsByMethod(table);
   EXPECT_EQ(rows.at("map").at("precision"), "");
   EXPECT_NE(rows.at("scan with support").at("above_chance"), "");
   const std::string text = edgesMarkdown(recording, smallOptions(), table);

@@ -3,44 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "edgevox/pipeline.hpp"
+#include "table_rows.hpp"
 
 namespace edgevox {
 namespace {
 
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line + ",");
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::vector<Row> rowsOf(const Table& table) {
-  std::istringstream in(table.csv());
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> names = split(line);
-  std::vector<Row> rows;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = split(line);
-    Row& row = rows.emplace_back();
-    for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells[i];
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& column) {
-  EXPECT_FALSE(row.at(column).empty()) << column;
-  return std::atof(row.at(column).c_str());
-}
+using test::number;
+using test::Row;
+using test::rowsOf;
 
 Recording walk() {
   RecordingOptions options;
