@@ -46,6 +46,11 @@ struct EdgeCount {
   /// Voxels in whose structure tensor no eigenvalue reaches a tenth of a plane's largest: a large
   /// share tells that the points lie too far apart for the voxel size.
   size_t sparse = 0;
+
+  /// Of the occupied voxels; 0 if there are none.
+  double sparseShare() const {
+    return occupied > 0 ? static_cast<double>(sparse) / static_cast<double>(occupied) : 0.0;
+  }
 };
 
 /// Labels the edges of one scan at the map's voxel size.

@@ -4,6 +4,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/mapper.hpp"
+#include "edgevox/sparse_alarm.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "edgevox/voxelizer.hpp"
 
@@ -30,11 +31,14 @@ class Pipeline {
 
   Mapper& mapper() { return mapper_; }
   const OccupiedVoxelMap& map() const { return mapper_.map(); }
+  /// Over all scans.
+  const SparseAlarm& sparseAlarm() const { return sparse_alarm_; }
 
  private:
   Clock clock_;
   Voxelizer voxelizer_;
   EdgeExtractor extractor_;
+  SparseAlarm sparse_alarm_;
   Mapper mapper_;
 };
 

@@ -10,10 +10,13 @@
 namespace edgevox {
 namespace {
 
+constexpr size_t kSparseWindow = 100;  // scans
+
 /// Puts the edges of `scan` into the message it was read from.
 void setEdges(const VoxelScan& scan, const EdgeCount& count, VoxelScanStamped& message) {
   message.occupied_voxels = static_cast<uint32_t>(count.occupied);
   message.edge_voxels = static_cast<uint32_t>(count.edges);
+  message.sparse_voxels = static_cast<uint32_t>(count.sparse);
   size_t i = 0;
   for (Voxel& voxel : message.voxels) {
     const bool is_next = isPossible(voxel, message.voxel_size);
@@ -31,6 +34,7 @@ EdgeExtractorNode::EdgeExtractorNode(const ros::NodeHandle& handle,
       extractor_(parameters_.config.edges, parameters_.config.threads),
       edges_(ros::NodeHandle(handle).advertise<VoxelScanStamped>("edges", 10)),
       cloud_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("edges_cloud", 2)),
+      sparse_alarm_(parameters_.config.edges, parameters_.config.threads, kSparseWindow),
       input_(handle, "voxels", parameters_.queue_size, log_,
              [this](const Input::Arrival& arrival) { process(arrival); }),
       diagnostics_(handle, private_handle, name,
@@ -49,6 +53,7 @@ void EdgeExtractorNode::process(const Input::Arrival& arrival) {
   StageTimer timer(Clock::kWall);
   VoxelScan scan = fromMessage(*arrival.message);
   const EdgeCount count = extractor_.extract(scan);
+  watchSparsity(scan, count);
   const double seconds = timer.lap();
 
   const auto message = boost::make_shared<VoxelScanStamped>(*arrival.message);
@@ -65,6 +70,14 @@ void EdgeExtractorNode::process(const Input::Arrival& arrival) {
   if (cloud_.getNumSubscribers() > 0) cloud_.publish(cloudOf(*message, ScanPart::kEdges));
 }
 
+void EdgeExtractorNode::watchSparsity(const VoxelScan& scan, const EdgeCount& count) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  sparse_alarm_.add(scan, count);
+  const auto warning = sparse_alarm_.warning();
+  lock.unlock();
+  if (warning) log_.warn("too_sparse", textOf(*warning));
+}
+
 void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -72,6 +85,8 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
                   state_.last.occupied);
   if (!state_.mismatch.empty()) {
     status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.mismatch);
+  } else if (const auto warning = sparse_alarm_.warning()) {
+    warn(textOf(*warning), status);
   } else if (state_.last.occupied > 0 && state_.last.edges == 0) {
     warn(
         "no edges in the last scan: it is flat, or voxel_size is smaller than the gap between "
@@ -81,6 +96,7 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   addInput(reading, state_.dropped_told, status);
   status.add("occupied voxels of a scan", state_.last.occupied);
   status.add("edge voxels of a scan", state_.last.edges);
+  status.addf("sparse voxels, median share", "%.3f", sparse_alarm_.share());
   addTimes("extract", state_.times, status);
 }
 

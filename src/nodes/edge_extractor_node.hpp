@@ -9,6 +9,7 @@
 #include <string>
 
 #include "edgevox/edge_extractor.hpp"
+#include "edgevox/sparse_alarm.hpp"
 #include "nodes/diagnostics.hpp"
 #include "ros/parameters.hpp"
 #include "ros/scan_input.hpp"
@@ -36,6 +37,7 @@ class EdgeExtractorNode {
   };
 
   void process(const Input::Arrival& arrival);
+  void watchSparsity(const VoxelScan& scan, const EdgeCount& count);
   void diagnose(DiagnosticStatus& status);
 
   ThrottledLog log_;
@@ -43,8 +45,9 @@ class EdgeExtractorNode {
   EdgeExtractor extractor_;
   ros::Publisher edges_;
   ros::Publisher cloud_;
-  std::mutex mutex_;  // of the state
+  std::mutex mutex_;  // of the state and the alarm
   State state_;
+  SparseAlarm sparse_alarm_;
   Input input_;
   NodeDiagnostics diagnostics_;
 };

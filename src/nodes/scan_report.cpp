@@ -49,7 +49,7 @@ PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& 
   all.scan_voxels = scan.voxels.size();
   all.dropped = {scan.points_not_finite, scan.points_too_near, scan.points_too_far,
                  scan.point_times_ignored};
-  all.edges = {scan.occupied_voxels, scan.edge_voxels};
+  all.edges = {scan.occupied_voxels, scan.edge_voxels, scan.sparse_voxels};
   all.voxelize = static_cast<double>(scan.voxelize_seconds);
   all.extract = static_cast<double>(scan.extract_seconds);
   return all;

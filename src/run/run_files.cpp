@@ -62,6 +62,14 @@ void addScans(const RunRecord& run, Report& report) {
   report.add("dropped", run.dropped);
 }
 
+/// Median over the scans.
+double sparseShareOf(const std::deque<ScanRecord>& scans) {
+  std::vector<double> shares(scans.size());
+  std::transform(scans.begin(), scans.end(), shares.begin(),
+                 [](const ScanRecord& r) { return static_cast<double>(r.sparse_share); });
+  return quantile(shares, 0.5);
+}
+
 void addPoints(const RunRecord& run, Report& report) {
   Report dropped;
   dropped.add("not_finite", run.dropped_points.not_finite);
@@ -69,6 +77,7 @@ void addPoints(const RunRecord& run, Report& report) {
   dropped.add("too_far", run.dropped_points.too_far);
   report.add("points", run.points);
   report.add("points_dropped", dropped);
+  report.add("sparse_share", sparseShareOf(run.scans));
   report.add("time_field", run.time_field.empty() ? "none" : run.time_field);
   report.add("point_times_ignored", run.dropped_points.bad_time);
 }

@@ -31,6 +31,7 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.hit_ratio = static_cast<float>(scan.hit_ratio);
   record.points = static_cast<uint32_t>(result.points);
   record.voxels = static_cast<uint32_t>(result.scan_voxels);
+  record.sparse_share = static_cast<float>(result.edges.sparseShare());
   const std::array<double, kStageNames.size()> seconds = {
       result.voxelize, result.extract, scan.times.match, scan.times.insert, scan.times.label};
   std::transform(seconds.begin(), seconds.end(), record.stages.begin(),

@@ -26,6 +26,7 @@ struct ScanRecord {
   float hit_ratio = 0.0F;
   uint32_t points = 0;
   uint32_t voxels = 0;
+  float sparse_share = 0.0F;                       ///< EdgeCount::sparseShare()
   std::array<float, kStageNames.size()> stages{};  ///< [s]
   float total = 0.0F;                              ///< time of the whole pipeline [s]
   float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
@@ -38,7 +39,7 @@ struct PoseRecord {
   std::array<double, 3> translation{};  ///< [m]
 };
 
-/// An account of a run, for its files. Grows by 130 bytes a scan, without being moved.
+/// An account of a run, for its files. Grows by 140 bytes a scan, without being moved.
 struct RunRecord {
   std::deque<ScanRecord> scans;
   /// T_map_base of the located scans; without a base frame of the sensor.

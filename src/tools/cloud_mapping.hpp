@@ -28,6 +28,7 @@ class CloudMapping {
 
   const RunRecord& run() const { return run_; }
   const OccupiedVoxelMap& map() const { return pipeline_.map(); }
+  const SparseAlarm& sparseAlarm() const { return pipeline_.sparseAlarm(); }
 
  private:
   void leaveOut(size_t cloud, const std::string& reason, const std::string& text);

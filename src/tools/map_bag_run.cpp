@@ -48,6 +48,7 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   });
   requireScans(bag, mapping);
   mapping.finish();
+  if (const auto warning = mapping.sparseAlarm().warning()) console.print(textOf(*warning));
 }
 
 }  // namespace

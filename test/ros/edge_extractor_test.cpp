@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "edgevox/edge_extractor.hpp"
+#include "edgevox/sparse_alarm.hpp"
 #include "nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
 #include "ros/voxel_scan_message.hpp"
@@ -93,6 +94,7 @@ TEST_F(EdgeExtractorTest, MarksTheEdgesThatTheCoreFinds) {
     EXPECT_TRUE(sameScan(scan, message));
     EXPECT_EQ(count.occupied, message.occupied_voxels);
     EXPECT_EQ(count.edges, message.edge_voxels);
+    EXPECT_EQ(count.sparse, message.sparse_voxels);
     EXPECT_GT(message.extract_seconds, 0.0F);
   }
   EXPECT_EQ(scans().size(), edges_.count());
@@ -112,8 +114,38 @@ TEST_F(EdgeExtractorTest, LeavesTheRestOfTheMessageAlone) {
   message.settings = sent.settings;
   message.voxels = sent.voxels;
   message.extract_seconds = 0.0F;
-  message.occupied_voxels = message.edge_voxels = 0;
+  message.occupied_voxels = message.edge_voxels = message.sparse_voxels = 0;
   EXPECT_EQ(sent, message);
+}
+
+TEST_F(EdgeExtractorTest, WarnsOfVoxelsSmallerThanTheGapsAndNamesASize) {
+  config_.voxel_size = 0.02;
+  setParameter("edge_extractor", "voxel_size", config_.voxel_size);
+  start();
+  VoxelScan scan =
+      Voxelizer(config_.voxelizer, config_.voxel_size).voxelize(viewOf(simulateRun(1).clouds[0]));
+  SparseAlarm alarm(config_.edges, 1, SparseAlarm::kEveryScan);
+  alarm.add(scan, EdgeExtractor(config_.edges, 1).extract(scan));
+  ASSERT_TRUE(alarm.warning());
+  ASSERT_GT(alarm.warning()->voxel_size, config_.voxel_size);
+  const std::string text = textOf(*alarm.warning());
+  edgesOf(messageOf(scan, config_));
+  EXPECT_TRUE(tells("edge_extractor", Status::WARN, {text}));
+  EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN, {text}));
+  for (int i = 0; i < 5; ++i) edgesOf(messageOf(scan, config_));
+  EXPECT_EQ(1U, countLogged(rosgraph_msgs::Log::WARN, {"too sparse"})) << "not throttled";
+}
+
+TEST_F(EdgeExtractorTest, TellsTheShareOfSparseVoxels) {
+  start();
+  VoxelScan scan = scans()[0];
+  const double share = EdgeExtractor(config_.edges, 1).extract(scan).sparseShare();
+  ASSERT_GT(share, 0.0);
+  edgesOf(messageOf(scans()[0]));
+  EXPECT_TRUE(tells("edge_extractor", [&](const Status& s) {
+    const std::string told = valueOf(s, "sparse voxels, median share");
+    return s.level == Status::OK && !told.empty() && std::abs(std::stod(told) - share) < 6e-4;
+  }));
 }
 
 TEST_F(EdgeExtractorTest, PublishesACloudOfTheEdgesForWhoListens) {

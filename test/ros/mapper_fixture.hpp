@@ -41,6 +41,7 @@ inline VoxelScanStamped edgesOf(VoxelScan scan, const ros::Time& stamp, const Co
   VoxelScanStamped message = toMessage(scan, header);
   message.occupied_voxels = static_cast<uint32_t>(count.occupied);
   message.edge_voxels = static_cast<uint32_t>(count.edges);
+  message.sparse_voxels = static_cast<uint32_t>(count.sparse);
   message.time_field = "time";
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
   return message;

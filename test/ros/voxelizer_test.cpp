@@ -68,7 +68,7 @@ TEST_F(VoxelizerTest, PublishesWhatTheCoreMakes) {
     EXPECT_GT(message.points_too_far, 0U);
     EXPECT_EQ(i, message.number);
     EXPECT_EQ("time", message.time_field);
-    EXPECT_EQ(0U, message.occupied_voxels + message.edge_voxels);
+    EXPECT_EQ(0U, message.occupied_voxels + message.edge_voxels + message.sparse_voxels);
     EXPECT_GE(message.arrival.toSec(), before.toSec() - 1e-6);
     EXPECT_LE(message.arrival.toSec(), ros::WallTime::now().toSec());
     EXPECT_GT(message.voxelize_seconds, 0.0F);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "edgevox/motion.hpp"
+#include "edgevox/sparse_alarm.hpp"
 #include "edgevox/trajectory_io.hpp"
 #include "map_bag_fixture.hpp"
 
@@ -79,6 +80,18 @@ TEST_F(MapBagTest, writesWhatItSays) {
   for (size_t i = 0; i < ply.size(); ++i) {
     ASSERT_EQ(ply.points[i].getVector3fMap(), pcd.points[i].getVector3fMap());
   }
+}
+
+TEST_F(MapBagTest, saysOnceThatVoxelsAreTooSmall) {
+  writeBag({simulatedRun().clouds.begin(), simulatedRun().clouds.begin() + 4});
+  EXPECT_LT(run()["sparse_share"].as<double>(), kSparseLimit);
+  EXPECT_FALSE(logged("too sparse"));
+  options_.settings = {"voxel_size=0.02"};
+  EXPECT_GT(run()["sparse_share"].as<double>(), kSparseLimit);
+  const std::string log = log_.str();
+  const size_t first = log.find("stand alone; choose voxel_size ");
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("too sparse", first), std::string::npos) << log;
 }
 
 TEST_F(MapBagTest, nothingOfAnEarlierRunIsLeft) {
