@@ -14,9 +14,10 @@
 namespace edgevox {
 
 /// Largest share of sparse voxels (EdgeCount::sparse) of a scan whose edges are of use. Medians at
-/// 5, 10 and 20 cm: handheld .28 .14 .07, street .30 .15 .08; simulated building .15 .06 .04 (16
-/// lines), .15 .07 .03 (32), corridor .18 .13 .09 (16). At 5 cm all voxels are smaller than the
-/// gaps between scan lines; the handheld scans do well at 10 cm.
+/// 5, 10 and 20 cm: handheld .276 .136 .065, where 10 cm does well; street .297 .147 .085;
+/// simulated corridor .182 .125 .087 (16 lines), building .158 .070 .031 (32), .138 .078 .037 (16).
+/// Points that are dense along lines far apart are not sparse: the last at 5 cm is a borderline
+/// case.
 constexpr double kSparseLimit = 0.14;
 
 /// That voxels are smaller than the spacing of the points.
