@@ -35,9 +35,13 @@ struct VoxelizerConfig {
 struct EdgeConfig {
   EdgeMode mode = EdgeMode::kDefault;
   double magnitude = 0.10;    ///< least middle eigenvalue, of a plane's largest
-  double ratio = 0.10;        ///< least middle / largest eigenvalue
+  double ratio = 0.10;        ///< least middle / largest eigenvalue, in one scan
   double scan_support = 0.3;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
-  double map_support = 0.5;   ///< the same on accumulated occupancy
+  /// On accumulated occupancy, which is denser than a scan's: the last two again, and how many of
+  /// its 26 neighbours an edge needs that are edges by these thresholds, 0: off
+  double map_ratio = 0.15;
+  double map_support = 0.5;
+  int map_neighbours = 8;
   InstructionSet instruction_set = InstructionSet::kAuto;
 };
 

@@ -40,6 +40,20 @@ extern template class EdgeLabeller<8>;
 extern template class EdgeLabeller<16>;
 extern template class EdgeLabeller<32>;
 
+/// What labels the accumulated map; its edges are thinned afterwards.
+EdgeLabeller<16> mapLabeller(const EdgeConfig& config, int threads);
+
+/// Structure tensor and support look at several voxels, so edges come as bands: of the
+/// `candidates` among `targets` those become `edges` that have at least `neighbours` other
+/// candidates in their 3^3 neighbourhood. Other voxels of `edges` stay.
+template <int kEdge>
+void thinEdges(const BitGrid<kEdge>& candidates, const BitGrid<kEdge>& targets, int neighbours,
+               BitGrid<kEdge>& edges);
+
+extern template void thinEdges<8>(const BitGrid<8>&, const BitGrid<8>&, int, BitGrid<8>&);
+extern template void thinEdges<16>(const BitGrid<16>&, const BitGrid<16>&, int, BitGrid<16>&);
+extern template void thinEdges<32>(const BitGrid<32>&, const BitGrid<32>&, int, BitGrid<32>&);
+
 struct EdgeCount {
   size_t occupied = 0;  ///< voxels of the map's size
   size_t edges = 0;

@@ -214,11 +214,13 @@ class OccupiedVoxelMap {
   double voxel_size_;
   MapConfig config_;
   EdgeLabeller<16> labeller_;
+  int edge_neighbours_;  // see thinEdges()
   uint32_t scans_ = 0;
   size_t ignored_ = 0;
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
   BitGrid<16> hit_voxels_;
+  BitGrid<16> edge_candidates_;  // labelled, not yet thinned
   BitGrid<16> edge_voxels_;
   BitGrid<16> changed_;  // hit voxels since the last labelling
   std::vector<GaussianLevel> gaussians_;

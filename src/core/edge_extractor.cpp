@@ -42,6 +42,24 @@ kernel::LabelBlock chooseKernel(InstructionSet instruction_set, int block_edge) 
   return portable ? kernel::portableLabelBlock(block_edge) : avx2;
 }
 
+/// The candidates among the `targets` of a row of a block that have enough others around them.
+template <int kEdge>
+uint32_t surrounded(const uint64_t* candidates, int row, uint32_t targets, int neighbours) {
+  const uint64_t* first = candidates + row / kEdge * (kEdge + 2) + row % kEdge;
+  uint32_t kept = 0;
+  uint32_t bits = targets & static_cast<uint32_t>(first[kEdge + 3] >> 1);
+  for (; bits != 0; bits &= bits - 1) {
+    const int x = __builtin_ctz(bits);
+    uint32_t cube = 0;
+    for (int i = 0; i < 9; ++i) {
+      const uint64_t three = (first[i / 3 * (kEdge + 2) + i % 3] >> x) & 7;
+      cube |= static_cast<uint32_t>(three) << (3 * i);
+    }
+    if (__builtin_popcount(cube) > neighbours) kept |= 1U << x;
+  }
+  return kept;
+}
+
 }  // namespace
 
 template <int kEdge>
@@ -98,6 +116,32 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
 template class EdgeLabeller<8>;
 template class EdgeLabeller<16>;
 template class EdgeLabeller<32>;
+
+EdgeLabeller<16> mapLabeller(const EdgeConfig& config, int threads) {
+  EdgeConfig of_map = config;
+  of_map.ratio = config.map_ratio;
+  return {of_map, config.map_support, threads};
+}
+
+template <int kEdge>
+void thinEdges(const BitGrid<kEdge>& candidates, const BitGrid<kEdge>& targets, int neighbours,
+               BitGrid<kEdge>& edges) {
+  for (size_t slot = 0; slot < targets.blockCount(); ++slot) {
+    const VoxelIndex& block = targets.blockIndex(slot);
+    const Neighbourhood<kEdge, 1> rows(candidates, block);
+    auto& edge_block = edges.block(edges.insertBlock(block));
+    for (int row = 0; row < BlockLayout<kEdge>::kRows; ++row) {
+      const auto r = static_cast<size_t>(row);
+      const uint32_t kept = surrounded<kEdge>(rows.data(), row, targets.block(slot)[r], neighbours);
+      edge_block[r] = static_cast<typename BitGrid<kEdge>::Row>(
+          (edge_block[r] & ~targets.block(slot)[r]) | kept);
+    }
+  }
+}
+
+template void thinEdges<8>(const BitGrid<8>&, const BitGrid<8>&, int, BitGrid<8>&);
+template void thinEdges<16>(const BitGrid<16>&, const BitGrid<16>&, int, BitGrid<16>&);
+template void thinEdges<32>(const BitGrid<32>&, const BitGrid<32>&, int, BitGrid<32>&);
 
 EdgeExtractor::EdgeExtractor(const EdgeConfig& config, int threads)
     : labeller_(config, config.scan_support, threads) {}

@@ -47,7 +47,8 @@ OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, con
                                    const EdgeConfig& edges, int threads)
     : voxel_size_(voxel_size),
       config_(map),
-      labeller_(edges, edges.map_support, threads),
+      labeller_(mapLabeller(edges, threads)),
+      edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
 }
@@ -190,15 +191,18 @@ void OccupiedVoxelMap::chooseAnchorsAnew() {
 }
 
 void OccupiedVoxelMap::label() {
-  BitGrid<16> targets;
-  Dilation<16>(labeller_.reach(), hit_voxels_, targets).add(changed_);
+  BitGrid<16> relabelled;
+  Dilation<16>(labeller_.reach(), hit_voxels_, relabelled).add(changed_);
   changed_.clear();
+  labeller_.label(hit_voxels_, relabelled, edge_candidates_);
+  BitGrid<16> targets;
+  Dilation<16>(1, hit_voxels_, targets).add(relabelled);
   std::vector<BitGrid<16>::Block> before(targets.blockCount());
   for (size_t slot = 0; slot < before.size(); ++slot) {
     const size_t edge_slot = edge_voxels_.insertBlock(targets.blockIndex(slot));
     before[slot] = edge_voxels_.block(edge_slot);
   }
-  labeller_.label(hit_voxels_, targets, edge_voxels_);
+  thinEdges(edge_candidates_, targets, edge_neighbours_, edge_voxels_);
   changeEdges(targets, before);
   chooseAnchorsAnew();
   if (config_.representation == Representation::kRandom) selectRandom();
@@ -250,6 +254,7 @@ void OccupiedVoxelMap::clear() {
   hit_grid_ = {};
   hits_ = {};
   hit_voxels_ = {};
+  edge_candidates_ = {};
   edge_voxels_ = {};
   changed_ = {};
   touched_ = {};
@@ -276,8 +281,8 @@ size_t OccupiedVoxelMap::packedBytes() const {
 }
 
 size_t OccupiedVoxelMap::bytes() const {
-  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() + edge_voxels_.bytes() +
-                 changed_.bytes();
+  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
+                 edge_candidates_.bytes() + edge_voxels_.bytes() + changed_.bytes();
   for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
   return bytes;

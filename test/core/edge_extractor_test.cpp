@@ -142,6 +142,48 @@ TEST(Dihedral, RightAnglesAreFoundWithTheSupportOfMaps) {
   EXPECT_EQ(0, tally.on_faces.edges);
 }
 
+/// Labels as the accumulated map has them.
+BitGrid<16> mapEdgesOf(const Scene& scene) {
+  const auto occupied = gridOf<16>(scene.voxels);
+  BitGrid<16> candidates, edges;
+  mapLabeller(kDefaults, 1).label(occupied, occupied, candidates);
+  thinEdges(candidates, occupied, kDefaults.map_neighbours, edges);
+  return edges;
+}
+
+TEST(Dihedral, EdgesOfTheMapKeepToRightAngles) {
+  Random random(7);
+  Tally on_crease, near_crease;
+  for (int i = 0; i < 20; ++i) {
+    const Scene scene = dihedralScene(random, 90, 40, 18);
+    const auto edges = mapEdgesOf(scene);
+    for (const VoxelIndex& v : scene.voxels) {
+      if (scene.rimDistance(v) < 6) continue;
+      const double distance = scene.creaseDistance(v);
+      if (distance <= 0.5) on_crease.count(edges.test(v));
+      if (edges.test(v)) near_crease.count(distance <= 2);
+    }
+  }
+  record("on_crease", on_crease);
+  record("near_crease", near_crease);
+  EXPECT_GE(on_crease.share(), 0.95);
+  EXPECT_GE(near_crease.share(), 0.99);
+}
+
+TEST(Corner, IsMostlyKeptInTheMap) {
+  Random random(9);
+  Tally tally;
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = cornerScene(random, 14);
+    const auto edges = mapEdgesOf(scene);
+    for (const VoxelIndex& v : scene.voxels) {
+      if (scene.cornerDistance(v) <= 1) tally.count(edges.test(v));
+    }
+  }
+  record("map", tally);
+  EXPECT_GE(tally.share(), 0.8);
+}
+
 TEST(Dihedral, MostOf120DegreesIsFoundUnlessSupportIsHigh) {
   const CreaseTally plain = tallyDihedrals(120, kDefaults, kNoSupport);
   const CreaseTally sparse = tallyDihedrals(120, kDefaults, 0.3);

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "edgevox/occupied_voxel_map.hpp"
+#include "support/reference_extractor.hpp"
 #include "support/scans.hpp"
 
 namespace edgevox::test {
@@ -25,8 +26,8 @@ using Eigen::Vector3d;
 constexpr double kSize = kScanMapVoxel;
 constexpr double kCoarsest = 3.2;  // [m]
 
-OccupiedVoxelMap makeMap(const MapConfig& config, int threads = 1) {
-  return OccupiedVoxelMap(kSize, kCoarsest, config, EdgeConfig{}, threads);
+OccupiedVoxelMap makeMap(const MapConfig& config, int threads = 1, const EdgeConfig& edges = {}) {
+  return OccupiedVoxelMap(kSize, kCoarsest, config, edges, threads);
 }
 
 MapConfig withLabelEvery(int scans) {
@@ -41,12 +42,13 @@ MapConfig withRepresentation(Representation representation) {
   return config;
 }
 
-Voxels labelledAtOnce(const Voxels& hit) {
+Voxels labelledAtOnce(const Voxels& hit, EdgeConfig config = {}) {
   const auto occupied = gridOf<32>(hit);
-  BitGrid<32> edges;
-  const EdgeConfig config;
-  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, edges);
-  return voxelsOf(edges);
+  BitGrid<32> candidates;
+  config.ratio = config.map_ratio;
+  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, candidates);
+  const bool paper = config.mode == EdgeMode::kPaper;
+  return thinnedAtOnce(voxelsOf(candidates), paper ? 0 : config.map_neighbours);
 }
 
 Voxels parents(Voxels voxels) {
@@ -188,16 +190,27 @@ Centroids centresOf(const Voxels& voxels) {
   return centres;
 }
 
+EdgeConfig withNeighbours(int neighbours, EdgeMode mode = EdgeMode::kDefault) {
+  EdgeConfig config;
+  config.mode = mode;
+  config.map_neighbours = neighbours;
+  return config;
+}
+
 TEST(Labels, FollowSingleVoxelsOverTheirWholeReach) {
-  Random random(17);
   MapConfig config = withLabelEvery(1);
   config.min_hits = 1;
-  OccupiedVoxelMap map = makeMap(config);
-  map.insert(centresOf(randomCloud(random, 14, 0.1)), farSensor());  // across eight blocks
-  for (int i = 0; i < 600; ++i) {
-    map.insert(centresOf({random.voxelIn(-7, 6)}), farSensor());
-    const Voxels hit = voxelsOf(map.hitVoxels());
-    ASSERT_TRUE(sameVoxels(labelledAtOnce(hit), voxelsOf(map.edgeVoxels())));
+  for (const EdgeConfig& edges : {withNeighbours(0), withNeighbours(2), withNeighbours(8),
+                                  withNeighbours(8, EdgeMode::kPaper)}) {
+    Random random(17);
+    OccupiedVoxelMap map = makeMap(config, 1, edges);
+    map.insert(centresOf(randomCloud(random, 14, 0.1)), farSensor());  // across eight blocks
+    for (int i = 0; i < 300; ++i) {
+      map.insert(centresOf({random.voxelIn(-7, 6)}), farSensor());
+      const Voxels hit = voxelsOf(map.hitVoxels());
+      ASSERT_TRUE(sameVoxels(labelledAtOnce(hit, edges), voxelsOf(map.edgeVoxels())));
+    }
+    EXPECT_GT(map.edgeVoxels().voxelCount(), 10U);
   }
 }
 

@@ -208,4 +208,17 @@ std::vector<VoxelIndex> ReferenceExtractor::paperEdges() const {
   return select([&](const VoxelIndex& v) { return isPaperEdge(v); });
 }
 
+std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates, int neighbours) {
+  const std::unordered_set<VoxelIndex, HashVoxel> all(candidates.begin(), candidates.end());
+  std::vector<VoxelIndex> thinned;
+  for (const VoxelIndex& v : candidates) {
+    int count = -1;  // itself
+    for (int i = 0; i < 27; ++i) {
+      count += static_cast<int>(all.count({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1}));
+    }
+    if (count >= neighbours) thinned.push_back(v);
+  }
+  return thinned;
+}
+
 }  // namespace edgevox::test

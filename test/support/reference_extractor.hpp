@@ -63,4 +63,7 @@ class ReferenceExtractor {
   mutable std::unordered_map<VoxelIndex, Eigen::Vector3d, HashVoxel> paper_gradient_;
 };
 
+/// Of the candidates those with at least `neighbours` others among their 26, one by one.
+std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates, int neighbours);
+
 }  // namespace edgevox::test
