@@ -77,7 +77,7 @@ TEST(Settings, ofOneConfigurationAgree) {
   config.voxel_size = 0.2;
   VoxelScanStamped message = makeMessage();
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
-  EXPECT_EQ(8U, message.settings.size());  // without edges/instruction_set
+  EXPECT_EQ(10U, message.settings.size());  // without edges/instruction_set
   EXPECT_FALSE(mismatchOf(message, config));
   config.threads = 4;
   config.edges.instruction_set = InstructionSet::kPortable;
