@@ -34,9 +34,9 @@ struct VoxelizerConfig {
 
 struct EdgeConfig {
   EdgeMode mode = EdgeMode::kDefault;
-  double magnitude = 0.10;    ///< least middle eigenvalue, of a plane's largest
-  double ratio = 0.10;        ///< least middle / largest eigenvalue, in one scan
-  double scan_support = 0.3;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
+  double magnitude = 0.10;     ///< least middle eigenvalue, of a plane's largest
+  double ratio = 0.10;         ///< least middle / largest eigenvalue, in one scan
+  double scan_support = 0.35;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
   /// On accumulated occupancy, which is denser than a scan's: the last two again, and how many of
   /// its 26 neighbours an edge needs that are edges by these thresholds, 0: off
   double map_ratio = 0.15;

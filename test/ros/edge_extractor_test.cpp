@@ -107,7 +107,7 @@ TEST_F(EdgeExtractorTest, LeavesTheRestOfTheMessageAlone) {
   VoxelScanStamped message = edgesOf(sent);
   auto settings = settingsOf(sent);
   for (const char* setting :
-       {"edges/mode=default", "edges/magnitude=0.1", "edges/ratio=0.1", "edges/scan_support=0.3",
+       {"edges/mode=default", "edges/magnitude=0.1", "edges/ratio=0.1", "edges/scan_support=0.35",
         "edges/map_ratio=0.15", "edges/map_support=0.5", "edges/map_neighbours=8"}) {
     settings.push_back(setting);
   }
