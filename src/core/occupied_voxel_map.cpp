@@ -237,8 +237,8 @@ void OccupiedVoxelMap::selectRandom() {
     share = static_cast<double>(anchors) / static_cast<double>(candidates);
     for (uint32_t slot = 0; slot < g.size(); ++slot) {
       const GaussianLevel::Cell& cell = g.cell(slot);
-      if (!cell.is_twin)
-        g.select(slot, cell.hits >= config_.min_hits && lotOf(g.voxel(slot)) < share);
+      if (cell.is_twin) continue;
+      g.select(slot, cell.hits >= config_.min_hits && lotOf(g.voxel(slot)) < share);
     }
   }
 }
