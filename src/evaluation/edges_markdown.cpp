@@ -37,24 +37,20 @@ constexpr const char* kCompression =
     "Voxels of a scan or of the map, and occupied voxels / kept ones: the mean of the scans' "
     "ratios, and the ratio of the sums. For an octree the occupied leaves of pcl::octree of the "
     "same leaf size are kept, on the points of each scan or on the centroids of the map's voxels "
-    "(its "
-    "grid is laid out from the first point, so that a surface on a border between two layers of "
-    "voxels "
-    "may "
-    "lie within one layer of leaves); `merged`: eight occupied leaves of one parent count as one, "
-    "at all levels. What the octrees "
-    "of Ryde et al. (1.98, 1.75, 1.59 at 5 cm; edge voxels 2.53, 2.87, 4.47) count is not known "
-    "here, so that their figures cannot be set against these.";
+    "(its grid is laid out from the first point, so that a surface on a border between two "
+    "layers of voxels may lie within one layer of leaves); `merged`: eight occupied leaves of "
+    "one parent count as one, at all levels. What the octrees of Ryde et al. (1.98, 1.75, 1.59 "
+    "at 5 cm; edge voxels 2.53, 2.87, 4.47) count is not known here, so that their figures "
+    "cannot be set against these.";
 constexpr const char* kFalse =
     "A sample of the edge voxels that are no true ones. The surface around each, as far as it "
-    "hangs "
-    "together within a window of 7 x 7 x 7 voxels, is compared with the occupied voxels: what most "
-    "of the missing surface is gives the cause. Rim of the view: outside the field of view or the "
-    "range from every pose. Range jump: in view of some pose, but hidden. Gap: visible, but not "
-    "hit "
-    "(map: not by enough scans). Other: nothing is missing.";
+    "hangs together within a window of 7 x 7 x 7 voxels, is compared with the occupied voxels: "
+    "what most of the missing surface is gives the cause. Rim of the view: outside the field of "
+    "view or the range from every pose. Range jump: in view of some pose, but hidden. Gap: "
+    "visible, but not hit (map: not by enough scans). Other: nothing is missing.";
 constexpr const char* kTime =
-    "Of the extraction alone, one thread. The map is labelled after every `map/label_every` scans.";
+    "Of the extraction alone, one thread. The map is labelled after every `map/label_every` "
+    "scans.";
 
 std::string repeatability(const EdgeMeasureOptions& options) {
   return "Of the voxels of scan i that lie in or next to an occupied voxel of scan i + " +
@@ -66,14 +62,12 @@ std::string repeatability(const EdgeMeasureOptions& options) {
 
 constexpr const char* kTruth =
     "Precision: edge voxels whose centre is within 2 voxels of a true crease, rim or corner; "
-    "chance: "
-    "the same of all occupied voxels. The structure tensor looks 3 voxels aside, so within 3 "
-    "voxels "
-    "an edge is found, if not placed, rightly. Coverage: of the straight creases that bend by 70 "
-    "to "
-    "110 degrees, cut into pieces of 0.25 m, those with an edge voxel within 2 voxels. Counted are "
-    "pieces within 10 m of the sensor of which 20 points on each of the two faces, within 0.3 m of "
-    "the piece and 3 cm of the face, were measured: by the scan itself, for the map by all scans.";
+    "chance: the same of all occupied voxels. The structure tensor looks 3 voxels aside, so "
+    "within 3 voxels an edge is found, if not placed, rightly. Coverage: of the straight creases "
+    "that bend by 70 to 110 degrees, cut into pieces of 0.25 m, those with an edge voxel within "
+    "2 voxels. Counted are pieces within 10 m of the sensor of which 20 points on each of the "
+    "two faces, within 0.3 m of the piece and 3 cm of the face, were measured: by the scan "
+    "itself, for the map by all scans.";
 
 }  // namespace
 
