@@ -3,9 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "edgevox/atomic_file.hpp"
 #include "evaluation/edge_measures.hpp"
-#include "evaluation/plot.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
 
@@ -59,13 +57,7 @@ void evaluateEdges(const Arguments& arguments) {
   const Table table = measureEdges(recording, options, [](const std::string& note) {
     std::cerr << "evaluate: " << note << "\n";
   });
-  const std::string markdown = edgesMarkdown(recording, options, table);
-  writeFile(folder / "edges.csv", table.csv());
-  writeFile(folder / "edges.md", markdown);
-  std::cout << markdown;
-  const bool drawn =
-      runScript("plot_edges", {folder / "edges.csv", "--output", folder / "edges.png"});
-  if (!drawn) std::cerr << "evaluate: edges.png was not drawn\n";
+  writeResults(folder, "edges", "plot_edges", table, edgesMarkdown(recording, options, table));
 }
 
 }  // namespace edgevox

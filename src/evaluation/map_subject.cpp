@@ -3,9 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "edgevox/atomic_file.hpp"
 #include "evaluation/map_measures.hpp"
-#include "evaluation/plot.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
 
@@ -54,12 +52,7 @@ void evaluateMap(const Arguments& arguments) {
   const Table table = measureMaps(recording, options, [](const std::string& note) {
     std::cerr << "evaluate: " << note << "\n";
   });
-  const std::string markdown = mapMarkdown(recording, options, table);
-  writeFile(folder / "map.csv", table.csv());
-  writeFile(folder / "map.md", markdown);
-  std::cout << markdown;
-  const bool drawn = runScript("plot_maps", {folder / "map.csv", "--output", folder / "map.png"});
-  if (!drawn) std::cerr << "evaluate: map.png was not drawn\n";
+  writeResults(folder, "map", "plot_maps", table, mapMarkdown(recording, options, table));
 }
 
 }  // namespace edgevox

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "edgevox/atomic_file.hpp"
+#include "evaluation/plot.hpp"
 #include "tools/config_file.hpp"
 
 namespace edgevox {
@@ -91,6 +93,18 @@ RecordingOptions recordingOptionsOf(const po::variables_map& given) {
   options.every = countOf(given, "every", 1);
   options.most = countOf(given, "scans", 1);
   return options;
+}
+
+void writeResults(const std::filesystem::path& folder, const std::string& name,
+                  const std::string& script, const Table& table, const std::string& markdown) {
+  const auto csv = folder / (name + ".csv");
+  const auto picture = folder / (name + ".png");
+  writeFile(csv, table.csv());
+  writeFile(folder / (name + ".md"), markdown);
+  std::cout << markdown;
+  if (!runScript(script, {csv, "--output", picture})) {
+    std::cerr << "evaluate: " << picture.filename().string() << " was not drawn\n";
+  }
 }
 
 }  // namespace edgevox

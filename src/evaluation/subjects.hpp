@@ -3,12 +3,14 @@
 #pragma once
 
 #include <boost/program_options.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "edgevox/config.hpp"
 #include "evaluation/recording.hpp"
+#include "evaluation/table.hpp"
 
 namespace edgevox {
 
@@ -33,5 +35,10 @@ RecordingOptions recordingOptionsOf(const boost::program_options::variables_map&
 /// ConfigError, FileError.
 void addConfigOptions(boost::program_options::options_description& known);
 Config configOf(const boost::program_options::variables_map& given, std::string& name);
+
+/// Writes the table to FOLDER/NAME.csv and what is said about it to FOLDER/NAME.md, prints the
+/// latter and has the Python script draw FOLDER/NAME.png. Throws FileError.
+void writeResults(const std::filesystem::path& folder, const std::string& name,
+                  const std::string& script, const Table& table, const std::string& markdown);
 
 }  // namespace edgevox
