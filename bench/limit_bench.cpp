@@ -31,7 +31,7 @@ const Cloud& bigCloud() {
     const sim::Sensor sensor = sim::makeSensor("64");
     const sim::World world = sim::makeWorld(sim::WorldName::Building, 1);
     const sim::Trajectory path = sim::makeTrajectory(sim::WorldName::Building, sensor);
-    Cloud made = cloudOf(sim::simulateSweep(world, path, sensor, kFirstSweep, 1));
+    Cloud made = recordedScan(sim::simulateSweep(world, path, sensor, kFirstSweep, 1));
     if (made.view.width < kPoints) throw std::runtime_error("the cloud has too few points");
     made.view.width = kPoints;
     return made;
@@ -72,7 +72,7 @@ const std::vector<PlacedScan>& walk() {
       const auto sweep = sim::simulateSweep(world, path, sensor, kFirstSweep + i * kSweepStep, 1);
       PlacedScan& scan = placed[static_cast<size_t>(i)];
       scan.sensor = path.poseAt(sweep.stamp).translation();
-      for (const ScanVoxel& v : voxelizer.voxelize(cloudOf(sweep).view).voxels) {
+      for (const ScanVoxel& v : voxelizer.voxelize(recordedScan(sweep).view).voxels) {
         const Pose T_world_then = path.poseAt(sweep.stamp + static_cast<double>(v.time_offset));
         scan.centroids.push_back(T_world_then * v.centroid.cast<double>());
       }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -52,7 +51,7 @@ std::vector<Cloud> simulate(const Source& source) {
   std::vector<Cloud> clouds;
   const auto first = static_cast<int>(source.first);
   for (const auto& scan : sim::simulateSweeps(world, path, sensor, first, kScans, 1, 2)) {
-    clouds.push_back(cloudOf(scan));
+    clouds.push_back(recordedScan(scan));
   }
   return clouds;
 }
@@ -122,29 +121,6 @@ Sequence make(const Source& source) {
 }
 
 }  // namespace
-
-Cloud cloudOf(const sim::Scan& scan) {
-  struct Point {
-    float x, y, z, time;
-  };
-  Cloud cloud;
-  cloud.bytes.resize(scan.size() * sizeof(Point));
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f& p = scan.points[i];
-    const Point point{p.x(), p.y(), p.z(), scan.times[i]};
-    std::memcpy(&cloud.bytes[i * sizeof(Point)], &point, sizeof(Point));
-  }
-  cloud.view.stamp = scan.stamp;
-  cloud.view.frame = "lidar";
-  cloud.view.data = cloud.bytes.data();
-  cloud.view.width = scan.size();
-  cloud.view.height = 1;
-  cloud.view.point_step = sizeof(Point);
-  cloud.view.row_step = cloud.bytes.size();
-  cloud.view.time.present = true;
-  cloud.view.time.offset = offsetof(Point, time);
-  return cloud;
-}
 
 std::vector<std::string> sequenceNames() {
   std::vector<std::string> names;

@@ -2,7 +2,6 @@
 // The scans that all benchmarks run on.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,17 +9,11 @@
 
 #include "edgevox/config.hpp"
 #include "edgevox/voxelizer.hpp"
-#include "sim/scanner.hpp"
+#include "evaluation/recording.hpp"
 
 namespace edgevox::bench {
 
-/// A cloud that owns what its view shows.
-struct Cloud {
-  std::vector<uint8_t> bytes;
-  CloudView view;
-};
-
-Cloud cloudOf(const sim::Scan& scan);
+using Cloud = RecordedScan;
 
 /// Consecutive clouds of a moving sensor, and what the pipeline made of them. The first half
 /// builds a map; the second half is what is timed.

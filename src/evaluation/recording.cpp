@@ -42,27 +42,6 @@ SimulatedInput parseSimulated(const std::string& input) {
   return parsed;
 }
 
-RecordedScan packed(const sim::Scan& scan) {
-  RecordedScan recorded;
-  recorded.bytes.resize(scan.size() * sizeof(PackedPoint));
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f& p = scan.points[i];
-    const PackedPoint point{p.x(), p.y(), p.z(), scan.times[i]};
-    std::memcpy(&recorded.bytes[i * sizeof(PackedPoint)], &point, sizeof(PackedPoint));
-  }
-  CloudView& view = recorded.view;
-  view.stamp = scan.stamp;
-  view.frame = "lidar";
-  view.data = recorded.bytes.data();
-  view.width = scan.size();
-  view.height = 1;
-  view.point_step = sizeof(PackedPoint);
-  view.row_step = recorded.bytes.size();
-  view.time.present = true;
-  view.time.offset = offsetof(PackedPoint, time);
-  return recorded;
-}
-
 /// The part of a sweep that PackedPoint keeps.
 sim::Scan unpacked(const RecordedScan& recorded) {
   sim::Scan scan;
@@ -91,7 +70,8 @@ std::vector<RecordedScan> simulateSweeps(const SimulatedTruth& truth, uint64_t s
   const size_t workers = std::max(1U, std::thread::hardware_concurrency());
   const auto work = [&](size_t first) {
     for (size_t i = first; i < sweeps.size(); i += workers) {
-      scans[i] = packed(sim::simulateSweep(truth.world, truth.path, truth.sensor, sweeps[i], seed));
+      scans[i] =
+          recordedScan(sim::simulateSweep(truth.world, truth.path, truth.sensor, sweeps[i], seed));
       scans[i].T_map_sensor = truth.path.poseAt(scans[i].view.stamp);
     }
   };
@@ -120,6 +100,27 @@ Recording simulate(const RecordingOptions& options) {
 }
 
 }  // namespace
+
+RecordedScan recordedScan(const sim::Scan& scan) {
+  RecordedScan recorded;
+  recorded.bytes.resize(scan.size() * sizeof(PackedPoint));
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f& p = scan.points[i];
+    const PackedPoint point{p.x(), p.y(), p.z(), scan.times[i]};
+    std::memcpy(&recorded.bytes[i * sizeof(PackedPoint)], &point, sizeof(PackedPoint));
+  }
+  CloudView& view = recorded.view;
+  view.stamp = scan.stamp;
+  view.frame = "lidar";
+  view.data = recorded.bytes.data();
+  view.width = scan.size();
+  view.height = 1;
+  view.point_step = sizeof(PackedPoint);
+  view.row_step = recorded.bytes.size();
+  view.time.present = true;
+  view.time.offset = offsetof(PackedPoint, time);
+  return recorded;
+}
 
 Pose Recording::poseAt(size_t scan, double time_offset) const {
   const RecordedScan& recorded = scans[scan];

@@ -11,6 +11,7 @@
 
 #include "edgevox/motion.hpp"
 #include "edgevox/voxelizer.hpp"
+#include "sim/scanner.hpp"
 #include "sim/sensor.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
@@ -38,6 +39,9 @@ struct RecordedScan {
   Twist before;                          ///< of the sensor, from the pose before to this one
   Twist after;                           ///< from this pose to the next
 };
+
+/// A sweep as a cloud of x, y, z and time, without a pose.
+RecordedScan recordedScan(const sim::Scan& scan);
 
 /// What is known of a simulated recording only.
 struct SimulatedTruth {
