@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "sim/movers.hpp"
 #include "sim/parts.hpp"
 #include "sim/trajectory.hpp"
 
@@ -14,6 +15,7 @@ constexpr double kCarSensorHeight = 1.8;   ///< m
 // The solids of each world and the path through it, world frame, m.
 Solids layOutBuilding(std::uint64_t seed);
 Trajectory walkBuilding();
+Movers moveInBuilding(std::uint64_t seed);
 
 Solids layOutStreet(std::uint64_t seed);
 Trajectory driveStreet();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "sim/random.hpp"
@@ -39,6 +40,21 @@ float intensityOf(const World& world, const Hit& hit, const Eigen::Vector3d& dir
   return static_cast<float>(std::lround(255.0 * world.solids()[hit.solid].reflectivity * facing));
 }
 
+struct Echo {
+  double range;     // m
+  float intensity;  // 0 to 255
+};
+
+// The nearest surface of both.
+std::optional<Echo> castRay(const World& still, const World& moving, const Eigen::Vector3d& origin,
+                            const Eigen::Vector3d& direction, double max_range) {
+  const auto behind = still.castRay(origin, direction, max_range);
+  const auto before = moving.castRay(origin, direction, behind ? behind->range : max_range);
+  if (before) return Echo{before->range, intensityOf(moving, *before, direction)};
+  if (behind) return Echo{behind->range, intensityOf(still, *behind, direction)};
+  return std::nullopt;
+}
+
 }  // namespace
 
 int countSweeps(const Trajectory& trajectory, const Sensor& sensor) {
@@ -46,7 +62,7 @@ int countSweeps(const Trajectory& trajectory, const Sensor& sensor) {
 }
 
 Scan simulateSweep(const World& world, const Trajectory& trajectory, const Sensor& sensor,
-                   int sweep, std::uint64_t seed) {
+                   int sweep, std::uint64_t seed, const Movers& movers) {
   const std::vector<Beam> beams = makeBeams(sensor);
   Random random(seed, static_cast<std::uint64_t>(sweep));
   Scan scan;
@@ -56,8 +72,9 @@ Scan simulateSweep(const World& world, const Trajectory& trajectory, const Senso
     const double turn = static_cast<double>(column) / sensor.columns;
     const auto time = static_cast<float>(sensor.standing ? 0.0 : turn * sensor.period);
     const double azimuth = 2.0 * kPi * turn - kPi;
-    const Eigen::Isometry3d T_world_sensor =
-        trajectory.poseAt(scan.stamp + static_cast<double>(time));
+    const double now = scan.stamp + static_cast<double>(time);
+    const Eigen::Isometry3d T_world_sensor = trajectory.poseAt(now);
+    const World moving(solidsAt(movers, now));
     for (std::size_t ring = 0; ring < beams.size(); ++ring) {
       const double noise = sensor.noise * random.normal();
       const bool dropped = random.uniform() < sensor.dropout;
@@ -65,14 +82,14 @@ Scan simulateSweep(const World& world, const Trajectory& trajectory, const Senso
                                       beams[ring].horizontal * std::sin(azimuth),
                                       beams[ring].vertical);
       const Eigen::Vector3d direction_world = T_world_sensor.linear() * direction;
-      const auto hit =
-          world.castRay(T_world_sensor.translation(), direction_world, sensor.max_range);
-      if (!hit || dropped) continue;
-      const double range = hit->range + noise;
+      const auto echo =
+          castRay(world, moving, T_world_sensor.translation(), direction_world, sensor.max_range);
+      if (!echo || dropped) continue;
+      const double range = echo->range + noise;
       if (range < sensor.min_range || range > sensor.max_range) continue;
       scan.points.push_back((range * direction).cast<float>());
       scan.times.push_back(time);
-      scan.intensities.push_back(intensityOf(world, *hit, direction_world));
+      scan.intensities.push_back(echo->intensity);
       scan.rings.push_back(static_cast<std::uint16_t>(ring));
     }
   }
@@ -81,13 +98,13 @@ Scan simulateSweep(const World& world, const Trajectory& trajectory, const Senso
 
 std::vector<Scan> simulateSweeps(const World& world, const Trajectory& trajectory,
                                  const Sensor& sensor, int first, int count, std::uint64_t seed,
-                                 unsigned threads) {
+                                 unsigned threads, const Movers& movers) {
   std::vector<Scan> scans(static_cast<std::size_t>(std::max(count, 0)));
   std::atomic<int> next{0};
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) {
       scans[static_cast<std::size_t>(i)] =
-          simulateSweep(world, trajectory, sensor, first + i, seed);
+          simulateSweep(world, trajectory, sensor, first + i, seed, movers);
     }
   };
   std::vector<std::thread> helpers;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/movers.hpp"
 #include "sim/sensor.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
@@ -27,16 +28,17 @@ struct Scan {
 /// Sweeps that start and end within the trajectory.
 int countSweeps(const Trajectory& trajectory, const Sensor& sensor);
 
-/// The sweep number `sweep` (stamp sweep * sensor.period). Depends on the arguments alone and is
-/// safe to call from several threads.
+/// The sweep number `sweep` (stamp sweep * sensor.period) of the world and of the movers as they
+/// are at the time of each ray. Depends on the arguments alone and is safe to call from several
+/// threads.
 Scan simulateSweep(const World& world, const Trajectory& trajectory, const Sensor& sensor,
-                   int sweep, std::uint64_t seed);
+                   int sweep, std::uint64_t seed, const Movers& movers = {});
 
 /// Sweeps first .. first + count - 1 on up to `threads` threads (at least one); the result does
 /// not depend on `threads`.
 std::vector<Scan> simulateSweeps(const World& world, const Trajectory& trajectory,
                                  const Sensor& sensor, int first, int count, std::uint64_t seed,
-                                 unsigned threads);
+                                 unsigned threads, const Movers& movers = {});
 
 /// The points in the world frame, each moved by the true pose at its own time; m.
 std::vector<Eigen::Vector3d> pointsInWorld(const Scan& scan, const Trajectory& trajectory);

@@ -28,6 +28,11 @@ World makeWorld(WorldName name, std::uint64_t seed) {
   throw std::invalid_argument("unknown world");
 }
 
+Movers makeMovers(WorldName name, std::uint64_t seed) {
+  if (name == WorldName::Building) return moveInBuilding(seed);
+  throw std::invalid_argument("things move in the building only");
+}
+
 Trajectory makeTrajectory(WorldName name) {
   switch (name) {
     case WorldName::Building:

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "sim/movers.hpp"
 #include "sim/sensor.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
@@ -18,6 +19,11 @@ WorldName parseWorldName(std::string_view name);
 /// Two storeys with stairs, a loop of streets, or a bare corridor that ends in a room. The seed
 /// moves furniture, door leaves, façades and parked cars, never the walls of rooms.
 World makeWorld(WorldName name, std::uint64_t seed);
+
+/// People who walk about on the ground floor and boxes that are taken away, all at least 0.6 m from
+/// the path; the seed varies how they walk. Throws std::invalid_argument for worlds other than the
+/// building.
+Movers makeMovers(WorldName name, std::uint64_t seed);
 
 /// The path of a carried or driven sensor through the world, at rest at both ends; building and
 /// street end in the pose they begin in. Keeps at least 0.35 m from every solid.

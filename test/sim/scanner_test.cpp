@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
 
 #include "sim/worlds.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::sim {
 namespace {
@@ -76,6 +78,52 @@ TEST_F(ScannerTest, MotionDuringTheSweepMovesThePoints) {
     sum += surfaceDistance(world_, T_world_sensor * point.cast<double>());
   }
   EXPECT_GT(sum / static_cast<double>(scan.size()), 0.01);
+}
+
+// A board 0.7 m before the origin, until it is taken away.
+Movers boardUntil(double end) {
+  Mover board;
+  addBox(board.parts, {}, {0.7, -0.5, -0.5}, {0.75, 0.5, 0.5}, 1.0);
+  board.line = {Vector3d::Zero()};
+  board.end = end;
+  return {board};
+}
+
+TEST(Scanner, AMoverHidesWhatIsBehindItAsLongAsItIsThere) {
+  const World room = test::furnishedRoom();
+  const Trajectory path({{{0.0, 0.0, 0.0}}, {{1.0, 0.0, 0.0}}}, Gait{});  // at rest for a second
+  const Sensor sensor = exactSensor("32");
+  const Scan bare = simulateSweep(room, path, sensor, 0, 1);
+  const double gone = 0.5 * sensor.period;  // when the head, which starts backwards, looks ahead
+  const Scan scan = simulateSweep(room, path, sensor, 0, 1, boardUntil(gone));
+  ASSERT_EQ(scan.size(), bare.size());
+  int hidden = 0;
+  int seen_again = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f& was = bare.points[i];
+    const float aside = std::max(std::abs(was.y()), std::abs(was.z()));
+    const bool behind = was.x() > 0.7f && aside < 5.0f / 7.0f * was.x();
+    if (behind && static_cast<double>(scan.times[i]) < gone) {
+      ++hidden;
+      ASSERT_NEAR(scan.points[i].x(), 0.7, 1e-4);
+      ASSERT_NEAR(scan.intensities[i], 255.0 * 0.7 / scan.points[i].norm(), 0.51);
+    } else {
+      seen_again += behind ? 1 : 0;
+      ASSERT_EQ(scan.points[i], was);
+    }
+  }
+  EXPECT_GT(hidden, 1000);
+  EXPECT_GT(seen_again, 1000);
+  EXPECT_TRUE(sameBytes(bare, simulateSweep(room, path, sensor, 0, 1, boardUntil(0.0))));
+}
+
+TEST_F(ScannerTest, AMoverBehindAWallIsNotSeen) {
+  Mover outside;
+  addBox(outside.parts, {}, {-1.0, -1.0, 0.0}, {1.0, 1.0, 1.0}, 0.5);
+  outside.line = {{9.5, 1.5, 0.0}};  // another room
+  const Sensor sensor = makeSensor("16");
+  EXPECT_TRUE(sameBytes(simulateSweep(world_, path_, sensor, 0, 1),
+                        simulateSweep(world_, path_, sensor, 0, 1, {outside})));
 }
 
 TEST_F(ScannerTest, TimesRingsAndLimitsHold) {
