@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -14,12 +15,15 @@
 namespace edgevox {
 namespace {
 
+constexpr std::string_view kWithMovers = "+movers";
+
 struct PackedPoint {
   float x, y, z, time;
 };
 
 struct SimulatedInput {
   std::string world;
+  bool movers = false;
   std::string sensor;
   uint64_t seed = 1;
 };
@@ -37,6 +41,9 @@ SimulatedInput parseSimulated(const std::string& input) {
   const size_t first = input.find(':');
   const size_t second = input.find(':', first + 1);
   parsed.world = input.substr(0, first);
+  const size_t plus = parsed.world.find(kWithMovers);
+  parsed.movers = plus != std::string::npos && plus + kWithMovers.size() == first;
+  if (parsed.movers) parsed.world.resize(plus);
   parsed.sensor = input.substr(first + 1, second - first - 1);
   if (second != std::string::npos) parsed.seed = seedOf(input.substr(second + 1), input);
   return parsed;
@@ -70,8 +77,8 @@ std::vector<RecordedScan> simulateSweeps(const SimulatedTruth& truth, uint64_t s
   const size_t workers = std::max(1U, std::thread::hardware_concurrency());
   const auto work = [&](size_t first) {
     for (size_t i = first; i < sweeps.size(); i += workers) {
-      scans[i] =
-          recordedScan(sim::simulateSweep(truth.world, truth.path, truth.sensor, sweeps[i], seed));
+      scans[i] = recordedScan(
+          sim::simulateSweep(truth.world, truth.path, truth.sensor, sweeps[i], seed, truth.movers));
       scans[i].T_map_sensor = truth.path.poseAt(scans[i].view.stamp);
     }
   };
@@ -89,10 +96,11 @@ Recording simulate(const RecordingOptions& options) {
   }
   const sim::WorldName world = sim::parseWorldName(input.world);
   const sim::Sensor sensor = sim::makeSensor(input.sensor);
+  sim::Movers movers = input.movers ? sim::makeMovers(world, input.seed) : sim::Movers{};
   Recording recording;
   recording.name = options.input;
   recording.source = "the true ones";
-  recording.truth.emplace(SimulatedTruth{sim::makeWorld(world, input.seed),
+  recording.truth.emplace(SimulatedTruth{sim::makeWorld(world, input.seed), std::move(movers),
                                          sim::makeTrajectory(world, sensor), sensor});
   const int sweeps = sim::countSweeps(recording.truth->path, sensor);
   recording.scans = simulateSweeps(*recording.truth, input.seed, chosenSweeps(sweeps, options));

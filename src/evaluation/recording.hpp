@@ -11,6 +11,7 @@
 
 #include "edgevox/motion.hpp"
 #include "edgevox/voxelizer.hpp"
+#include "sim/movers.hpp"
 #include "sim/scanner.hpp"
 #include "sim/sensor.hpp"
 #include "sim/trajectory.hpp"
@@ -19,7 +20,7 @@
 namespace edgevox {
 
 struct RecordingOptions {
-  std::string input;            ///< a bag, or WORLD:SENSOR[:SEED] as in "building:32"
+  std::string input;            ///< a bag, or WORLD[+movers]:SENSOR[:SEED] as in "building:32"
   std::string topic;            ///< of a bag; empty: its only one with clouds
   std::filesystem::path poses;  ///< TUM, of a bag's sensor; empty: as Pipeline finds them
   size_t first = 0;             ///< take the scan of this number, counted from 0, ...
@@ -46,6 +47,7 @@ RecordedScan recordedScan(const sim::Scan& scan);
 /// What is known of a simulated recording only.
 struct SimulatedTruth {
   sim::World world;
+  sim::Movers movers;    ///< empty: nothing moves
   sim::Trajectory path;  ///< from stamp 0
   sim::Sensor sensor;
 };
@@ -64,7 +66,7 @@ struct Recording {
 /// Whether a scan is one of those to take, `taken` of which were before it.
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options);
 
-/// True if `input` has the form WORLD:SENSOR[:SEED] and there is no such file.
+/// True if `input` has the form WORLD[+movers]:SENSOR[:SEED] and there is no such file.
 bool isSimulated(const std::string& input);
 
 /// Reads or simulates. Throws std::invalid_argument for an input or option that is wrong, BagError,

@@ -50,7 +50,8 @@ void addRecordingOptions(po::options_description& known) {
   add("help,h", "print this text");
   add("input", po::value<std::string>()->required(),
       "a bag, or WORLD:SENSOR[:SEED] to simulate (building, street or corridor; 16, 32, 64 or "
-      "scanner), as in building:32; the first argument");
+      "scanner), as in building:32; building+movers:32 if people are to walk about and boxes to be "
+      "taken away; the first argument");
   add("topic", po::value<std::string>()->default_value("", "the only one with clouds"),
       "of a bag's clouds");
   add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),

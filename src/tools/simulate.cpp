@@ -48,6 +48,7 @@ struct Options {
   std::string sensor;
   fs::path output;
   std::uint64_t seed = 1;
+  bool movers = false;
   std::optional<double> duration;  // s
   std::optional<double> noise;     // m
   std::optional<double> dropout;
@@ -80,6 +81,7 @@ po::options_description describeOptions() {
   add("output,o", po::value<std::string>()->required(),
       "bag to write; the trajectory goes beside it as .tum");
   add("seed", po::value<std::int64_t>()->default_value(1), "0 or more; same seed, same bag");
+  add("movers", "people walk about and boxes are taken away (building only)");
   add("duration", po::value<double>(), "s, stop after so long (default: the whole path)");
   add("noise", po::value<double>(), "m, standard deviation of the range (default: the sensor's)");
   add("dropout", po::value<double>(), "share of returns left out (default: the sensor's)");
@@ -104,6 +106,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
   const auto seed = given["seed"].as<std::int64_t>();
   if (seed < 0) throw std::invalid_argument("--seed is " + std::to_string(seed) + ", below 0");
   options.seed = static_cast<std::uint64_t>(seed);
+  options.movers = given.count("movers") > 0;
   options.duration = numberOf(given, "duration");
   options.noise = numberOf(given, "noise");
   options.dropout = numberOf(given, "dropout");
@@ -235,6 +238,7 @@ std::string tumLine(const nav_msgs::Odometry& odometry) {
 
 struct Run {
   World world;
+  Movers movers;
   Sensor sensor;
   Trajectory trajectory;
   int sweeps;
@@ -250,7 +254,8 @@ Run prepareRun(const Options& options) {
         std::min(sweeps, static_cast<int>(std::floor(*options.duration / sensor.period + 1e-9)));
   }
   if (sweeps < 1) throw std::invalid_argument("--duration is shorter than one sweep");
-  return {makeWorld(name, options.seed), sensor, std::move(trajectory), sweeps};
+  Movers movers = options.movers ? makeMovers(name, options.seed) : Movers{};
+  return {makeWorld(name, options.seed), std::move(movers), sensor, std::move(trajectory), sweeps};
 }
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -262,8 +267,8 @@ std::string writeSweeps(const Run& run, std::uint64_t seed, rosbag::Bag& bag, Co
   std::string tum;
   for (int first = 0; first < run.sweeps; first += batch) {
     const int count = std::min(batch, run.sweeps - first);
-    const auto scans =
-        simulateSweeps(run.world, run.trajectory, run.sensor, first, count, seed, threads);
+    const auto scans = simulateSweeps(run.world, run.trajectory, run.sensor, first, count, seed,
+                                      threads, run.movers);
     for (const Scan& scan : scans) {
       const auto sequence = static_cast<std::uint32_t>(first + (&scan - scans.data()));
       nav_msgs::Odometry truth = toOdometry(run.trajectory, scan.stamp, sequence);

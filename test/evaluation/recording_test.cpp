@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -77,6 +78,22 @@ TEST(Recording, PointsInWorldAreThoseOfTheSimulation) {
   EXPECT_EQ(pointsInWorld(recording, 1), sim::pointsInWorld(scan, truth.path));
 }
 
+TEST(Recording, MoversAreInTheScansAndInTheTruth) {
+  const Recording still = makeRecording(simulated("building:16:2", 1, 1));
+  const Recording moving = makeRecording(simulated("building+movers:16:2", 1, 1));
+  EXPECT_TRUE(still.truth->movers.empty());
+  ASSERT_FALSE(moving.truth->movers.empty());
+  const sim::World there(sim::solidsAt(moving.truth->movers, 0.05));
+  const auto onMovers = [&](const Recording& recording) {
+    const auto points = pointsInWorld(recording, 0);
+    return std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+      return point.z() > 0.1 && there.clearance(point, 1.0) < 0.05;
+    });
+  };
+  EXPECT_EQ(onMovers(still), 0);
+  EXPECT_GT(onMovers(moving), 200);
+}
+
 TEST_F(BagRecordingTest, TakesThePosesOfTheFile) {
   const std::string poses = (folder_ / "truth.tum").string();
   writeTum(poses, run_.truth);
@@ -124,6 +141,8 @@ TEST(Recording, RefusesWhatItCannotUse) {
   EXPECT_THROW(makeRecording(simulated("building:17", 1, 1)), std::invalid_argument);
   EXPECT_THROW(makeRecording(simulated("castle:16", 1, 1)), std::invalid_argument);
   EXPECT_THROW(makeRecording(simulated("building:16:x", 1, 1)), std::invalid_argument);
+  EXPECT_THROW(makeRecording(simulated("corridor+movers:16", 1, 1)), std::invalid_argument);
+  EXPECT_THROW(makeRecording(simulated("building+:16", 1, 1)), std::invalid_argument);
   EXPECT_THROW(makeRecording(simulated("building:16", 0, 1)), std::invalid_argument);
   RecordingOptions with_poses = simulated("building:16", 1, 1);
   with_poses.poses = "some.tum";
