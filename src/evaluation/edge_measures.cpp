@@ -11,8 +11,10 @@
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
 #include "evaluation/edge_truth.hpp"
+#include "evaluation/ghosts.hpp"
 #include "evaluation/labelled_voxels.hpp"
 #include "evaluation/octree_leaves.hpp"
+#include "evaluation/share.hpp"
 
 namespace edgevox {
 namespace {
@@ -118,11 +120,27 @@ Table emptyTable() {
                 {"precision_wide", "within 3 voxels", 3},
                 {"chance", "chance", 3},
                 {"coverage", "coverage", 3},
+                {"ghosts", "ghosts", 0},
+                {"ghost_share", "share of the map", 4},
                 {"false_rim", "rim of the view"},
                 {"false_jump", "range jump"},
                 {"false_gap", "gap between scan lines"},
+                {"false_moved", "moved object"},
                 {"false_other", "other"},
                 {"ms", "CPU a scan [ms]"}});
+}
+
+/// Where movers were during these scans.
+sim::World movedIn(const Recording& recording, size_t first, size_t last) {
+  return sim::volumeOf(recording.truth->movers, recording.scans[first].view.stamp,
+                       endOf(recording, last));
+}
+
+/// Null unless something moves.
+std::unique_ptr<GhostJudge> ghostJudgeOf(const Recording& recording) {
+  if (!recording.truth || recording.truth->movers.empty()) return nullptr;
+  return std::make_unique<GhostJudge>(*recording.truth, recording.scans.front().view.stamp,
+                                      endOf(recording, recording.scans.size() - 1));
 }
 
 /// All scans in one map, labelled.
@@ -170,7 +188,8 @@ class SizeMeasurement {
         options_(options),
         voxelizer_(options.config.voxelizer, voxel_size),
         map_(buildMap(recording, options.config, voxel_size, Pose::Identity())),
-        map_cells_(cellsOf(map_.voxels, Pose::Identity())) {
+        map_cells_(cellsOf(map_.voxels, Pose::Identity())),
+        ghosts_(ghostJudgeOf(recording)) {
     if (truth != nullptr) judge_ = std::make_unique<EdgeJudge>(*truth, voxel_size);
   }
 
@@ -178,7 +197,9 @@ class SizeMeasurement {
     for (const Method& method : kMethods) {
       note("edges of a " + std::string(method.name));
       startRow(method.name, table);
-      writeSums(measureScans(method), recording_.scans.size(), table);
+      const ScanSums sums = measureScans(method);
+      writeSums(sums, recording_.scans.size(), table);
+      writeMoved(sums.truth, table);
     }
     note("edges of the map");
     startRow("map", table);
@@ -225,7 +246,7 @@ class SizeMeasurement {
     sums.truth += judge_->score(voxels, truth_->seen_by[i]);
     const SimulatedTruth& simulated = *recording_.truth;
     const FalseEdgeJudge judge(simulated.world, simulated.sensor,
-                               {recording_.scans[i].T_map_sensor});
+                               {recording_.scans[i].T_map_sensor}, movedIn(recording_, i, i));
     const CauseCounts causes = judge_->causes(
         voxels, judge, kJudgedInScan,
         [&](const LabelledVoxel& edge) { return recording_.poseAt(i, edge.time_offset); });
@@ -244,10 +265,25 @@ class SizeMeasurement {
     std::vector<Pose> poses;
     for (const RecordedScan& scan : recording_.scans) poses.push_back(scan.T_map_sensor);
     const SimulatedTruth& simulated = *recording_.truth;
-    const FalseEdgeJudge judge(simulated.world, simulated.sensor, std::move(poses));
+    const FalseEdgeJudge judge(simulated.world, simulated.sensor, std::move(poses),
+                               movedIn(recording_, 0, recording_.scans.size() - 1));
     score.causes = judge_->causes(map.voxels, judge, kJudgedInMap,
                                   [&](const LabelledVoxel&) { return map.voxels.T_map_grid; });
     writeTruth(score, table);
+    writeMoved(score, table);
+    writeGhosts(map, table);
+  }
+
+  void writeMoved(const TruthScore& truth, Table& table) const {
+    if (ghosts_ == nullptr) return;
+    table.set("false_moved", truth.causeShare(FalseEdgeCause::kMovedObject));
+  }
+
+  void writeGhosts(const LabelledMap& map, Table& table) const {
+    if (ghosts_ == nullptr) return;
+    const size_t ghosts = ghosts_->count(map.centroids, voxel_size_, map.voxels.T_map_grid);
+    table.set("ghosts", static_cast<double>(ghosts));
+    table.set("ghost_share", shareOf(ghosts, map.centroids.size()));
   }
 
   void measureOctrees(Table& table) {
@@ -286,7 +322,8 @@ class SizeMeasurement {
   Voxelizer voxelizer_;
   LabelledMap map_;
   Cells map_cells_;
-  std::unique_ptr<EdgeJudge> judge_;  // null unless simulated
+  std::unique_ptr<GhostJudge> ghosts_;  // null unless simulated with movers
+  std::unique_ptr<EdgeJudge> judge_;    // null unless simulated
 };
 
 }  // namespace

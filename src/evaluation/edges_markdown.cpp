@@ -47,7 +47,12 @@ constexpr const char* kFalse =
     "hangs together within a window of 7 x 7 x 7 voxels, is compared with the occupied voxels: "
     "what most of the missing surface is gives the cause. Rim of the view: outside the field of "
     "view or the range from every pose. Range jump: in view of some pose, but hidden. Gap: "
-    "visible, but not hit (map: not by enough scans). Other: nothing is missing.";
+    "visible, but not hit (map: not by enough scans). Moved object: within 1.5 voxels of where "
+    "something was for a while only, and of nothing that stands still. Other: nothing is missing.";
+constexpr const char* kGhosts =
+    "Occupied voxels of the map that hold what is no longer there: their centroid is within one "
+    "voxel of where something was while the scans were taken, and more than 1.5 voxels from all "
+    "that stands there in the end.";
 constexpr const char* kTime =
     "Of the extraction alone, one thread. The map is labelled after every `map/label_every` "
     "scans.";
@@ -67,7 +72,7 @@ constexpr const char* kTruth =
     "that bend by 70 to 110 degrees, cut into pieces of 0.25 m, those with an edge voxel within "
     "2 voxels. Counted are pieces within 10 m of the sensor of which 20 points on each of the "
     "two faces, within 0.3 m of the piece and 3 cm of the face, were measured: by the scan "
-    "itself, for the map by all scans.";
+    "itself, for the map by all scans. Edges of what moves are not true ones.";
 
 }  // namespace
 
@@ -82,7 +87,8 @@ std::string edgesMarkdown(const Recording& recording, const EdgeMeasureOptions& 
                  repeatability(options)) +
          section(table, "Truth", {"precision", "precision_wide", "chance", "coverage"}, kTruth) +
          section(table, "False edges by cause",
-                 {"false_rim", "false_jump", "false_gap", "false_other"}, kFalse) +
+                 {"false_rim", "false_jump", "false_gap", "false_moved", "false_other"}, kFalse) +
+         section(table, "Ghosts", {"ghosts", "ghost_share"}, kGhosts) +
          section(table, "Time", {"ms"}, kTime);
 }
 

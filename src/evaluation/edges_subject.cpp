@@ -19,8 +19,9 @@ po::options_description describe() {
   po::options_description known(
       "Usage: evaluate edges INPUT --output FOLDER [options]\n"
       "Measures how edges are extracted from scans and labelled in the map: compression,\n"
-      "repeatability, time, and in simulated worlds precision, coverage and the causes of false\n"
-      "edges. Writes FOLDER/edges.md, edges.csv and edges.png and prints the first.\nOptions");
+      "repeatability, time, and in simulated worlds precision, coverage, the causes of false\n"
+      "edges, and what the map keeps of things that are gone. Writes FOLDER/edges.md, edges.csv\n"
+      "and edges.png and prints the first.\nOptions");
   addRecordingOptions(known);
   addConfigOptions(known);
   auto add = known.add_options();

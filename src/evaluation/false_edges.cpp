@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kLift = 0.002;         // m, of a surface point out of the solid
 constexpr double kGradientStep = 1e-4;  // m
+constexpr double kMoverReach = 1.5;     // voxels, from what has moved and from what stands still
 
 /// Steps over the window around its middle, in the order of a flood fill.
 template <int kWidth>
@@ -38,8 +39,17 @@ std::vector<bool> connected(const std::vector<bool>& there) {
 }  // namespace
 
 FalseEdgeJudge::FalseEdgeJudge(const sim::World& world, const sim::Sensor& sensor,
-                               std::vector<Pose> T_world_sensor)
-    : world_(world), sensor_(sensor), T_world_sensor_(std::move(T_world_sensor)) {}
+                               std::vector<Pose> T_world_sensor, sim::World moved)
+    : world_(world),
+      sensor_(sensor),
+      T_world_sensor_(std::move(T_world_sensor)),
+      moved_(std::move(moved)) {}
+
+bool FalseEdgeJudge::isOfMover(const Eigen::Vector3d& centre, double voxel_size) const {
+  const double reach = kMoverReach * voxel_size;
+  const double limit = reach + voxel_size;
+  return moved_.clearance(centre, limit) <= reach && world_.clearance(centre, limit) > reach;
+}
 
 FalseEdgeJudge::SurfacePoint FalseEdgeJudge::surfaceNear(const Eigen::Vector3d& centre,
                                                          double voxel_size) const {
@@ -73,6 +83,9 @@ FalseEdgeJudge::Window FalseEdgeJudge::surfaceAround(const VoxelIndex& edge, dou
 
 FalseEdgeCause FalseEdgeJudge::causeOf(const VoxelIndex& edge, const BitGrid<16>& occupied,
                                        double voxel_size, const Pose& T_world_grid) const {
+  if (isOfMover(T_world_grid * voxelCentre(edge, voxel_size), voxel_size)) {
+    return FalseEdgeCause::kMovedObject;
+  }
   const Window window = surfaceAround(edge, voxel_size, T_world_grid);
   std::vector<bool> there;
   for (const SurfacePoint& surface : window) there.push_back(surface.there);

@@ -12,21 +12,24 @@
 
 namespace edgevox {
 
-/// Why an edge was found where the world has none: what most of the missing surface around it is.
+/// Why an edge was found where the world has none: because something else was there, or what most
+/// of the missing surface around it is.
 enum class FalseEdgeCause {
   kRimOfView,    ///< outside the sensor's field of view or range
   kRangeJump,    ///< in the shadow of something nearer, or facing away
   kScanLineGap,  ///< visible, but not hit or not often enough
+  kMovedObject,  ///< near what was there for a while only, and near nothing that stands still
   kNothingGone,  ///< no surface is missing: noise and voxelization
 };
-constexpr size_t kFalseEdgeCauses = 4;
+constexpr size_t kFalseEdgeCauses = 5;
 
 /// Tells the causes of false edges in a simulated world.
 class FalseEdgeJudge {
  public:
   /// `world` must outlive this. `T_world_sensor`: the poses from which the voxels were seen.
+  /// `moved`: what was occupied for a while only.
   FalseEdgeJudge(const sim::World& world, const sim::Sensor& sensor,
-                 std::vector<Pose> T_world_sensor);
+                 std::vector<Pose> T_world_sensor, sim::World moved = sim::World({}));
 
   /// Looks at the surface in the 7^3 window around the voxel as far as it hangs together with the
   /// surface in the voxel or next to it. It is missing where no voxel of `occupied` holds it or
@@ -46,6 +49,7 @@ class FalseEdgeJudge {
   };
   using Window = std::array<SurfacePoint, kWidth * kWidth * kWidth>;
 
+  bool isOfMover(const Eigen::Vector3d& centre, double voxel_size) const;
   SurfacePoint surfaceNear(const Eigen::Vector3d& centre, double voxel_size) const;
   Window surfaceAround(const VoxelIndex& edge, double voxel_size, const Pose& T_world_grid) const;
   FalseEdgeCause causeOfMissing(const Eigen::Vector3d& point) const;
@@ -54,6 +58,7 @@ class FalseEdgeJudge {
   const sim::World& world_;
   sim::Sensor sensor_;
   std::vector<Pose> T_world_sensor_;
+  sim::World moved_;
 };
 
 }  // namespace edgevox

@@ -137,6 +137,11 @@ Pose Recording::poseAt(size_t scan, double time_offset) const {
   return recorded.T_map_sensor * moved(twist, time_offset);
 }
 
+double endOf(const Recording& recording, size_t scan) {
+  const sim::Sensor& sensor = recording.truth->sensor;
+  return recording.scans[scan].view.stamp + (sensor.standing ? 0.0 : sensor.period);
+}
+
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options) {
   return scan >= options.first && (scan - options.first) % options.every == 0 &&
          taken < options.most;

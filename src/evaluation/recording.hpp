@@ -63,6 +63,9 @@ struct Recording {
   Pose poseAt(size_t scan, double time_offset) const;
 };
 
+/// When the last ray of a scan of a simulated recording was sent, from the trajectory's start [s].
+double endOf(const Recording& recording, size_t scan);
+
 /// Whether a scan is one of those to take, `taken` of which were before it.
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options);
 

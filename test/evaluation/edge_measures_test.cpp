@@ -9,6 +9,7 @@
 
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/statistics.hpp"
+#include "support/sweeps.hpp"
 #include "table_rows.hpp"
 
 namespace edgevox {
@@ -29,6 +30,25 @@ Recording standingStill() {
   options.every = 2;
   options.most = 5;
   return makeRecording(options);
+}
+
+/// The sensor stands still in a room in which somebody walks.
+Recording walkerInARoom() {
+  sim::Mover walker;
+  sim::addBox(walker.parts, {}, {-0.15, -0.25, 0.0}, {0.15, 0.25, 1.75}, 0.5);
+  walker.line = {{-2.0, -1.5, -1.4}, {2.0, -1.5, -1.4}};
+  walker.speed = 1.0;
+  const sim::Trajectory path({{{0, 0, 0}}, {{1, 0, 0}}}, sim::Gait{});
+  Recording recording;
+  recording.truth.emplace(
+      SimulatedTruth{test::furnishedRoom(), {walker}, path, sim::makeSensor("32")});
+  const SimulatedTruth& truth = *recording.truth;
+  for (int sweep = 0; sweep < 10; ++sweep) {
+    recording.scans.push_back(recordedScan(
+        sim::simulateSweep(truth.world, truth.path, truth.sensor, sweep, 1, truth.movers)));
+    recording.scans.back().T_map_sensor = path.poseAt(recording.scans.back().view.stamp);
+  }
+  return recording;
 }
 
 EdgeMeasureOptions smallOptions() {
@@ -103,6 +123,23 @@ TEST_F(EdgeMeasuresTest, TellTheExtractorsApart) {
   EXPECT_GT(number(rows_.at("merged octree of a scan"), "compression_all"), octree);
 }
 
+TEST_F(EdgeMeasuresTest, CountGhostsWhereSomethingMoves) {
+  const Recording recording = walkerInARoom();
+  const Table table = measure(recording);
+  const auto rows = rowsByMethod(table);
+  for (const char* map : {"map", "map in a turned grid"}) {
+    const Row& row = rows.at(map);
+    EXPECT_GT(number(row, "ghosts"), 10.0);
+    EXPECT_NEAR(number(row, "ghost_share"), number(row, "ghosts") / number(row, "occupied"), 1e-5);
+    EXPECT_GT(number(row, "false_moved"), 0.0);
+    EXPECT_EQ(rows_.at(map).at("ghosts"), "");
+    EXPECT_EQ(rows_.at(map).at("false_moved"), "");
+  }
+  const std::string text = edgesMarkdown(recording, smallOptions(), table);
+  EXPECT_NE(text.find("## Ghosts"), std::string::npos);
+  EXPECT_NE(text.find("| moved object |"), std::string::npos);
+}
+
 TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {
   Recording recording = standingStill();
   recording.truth.reset();
@@ -113,6 +150,7 @@ TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {
   const std::string text = edgesMarkdown(recording, smallOptions(), table);
   EXPECT_NE(text.find("## Repeatability"), std::string::npos);
   EXPECT_EQ(text.find("## Truth"), std::string::npos);
+  EXPECT_EQ(text.find("## Ghosts"), std::string::npos);
 }
 
 }  // namespace

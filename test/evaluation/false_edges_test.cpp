@@ -85,6 +85,22 @@ TEST_F(FalseEdgesTest, TheMajorityDecides) {
   EXPECT_EQ(causeAt(-10, 4, rim_and_hole), FalseEdgeCause::kScanLineGap);
 }
 
+TEST_F(FalseEdgesTest, WhatHasMovedIsTheCauseAwayFromTheWall) {
+  sim::Solids block;
+  sim::addTurnedBox(block, {2.6, -1.0, 0}, {0.6, 0.2, 1}, Eigen::Quaterniond::Identity(), 0.5);
+  const FalseEdgeJudge judge(world_, sensor_, poses_, sim::World(block));
+  const auto causeIn = [&](const VoxelIndex& edge) {
+    return judge.causeOf(edge, wallVoxels(all), kSize, T_world_grid_);
+  };
+  EXPECT_EQ(causeIn({25, -10, 0}), FalseEdgeCause::kMovedObject);  // inside the block
+  EXPECT_EQ(causeIn({25, -13, 0}), FalseEdgeCause::kMovedObject);  // 1.5 voxels beside it
+  EXPECT_EQ(causeIn({25, -15, 0}), FalseEdgeCause::kNothingGone);
+  EXPECT_EQ(causeIn({29, -10, 0}), FalseEdgeCause::kNothingGone);  // as near to the wall
+  T_world_grid_.translation() = Eigen::Vector3d(0, 2, 0);
+  EXPECT_EQ(causeIn({25, -30, 0}), FalseEdgeCause::kMovedObject);
+  EXPECT_EQ(causeIn({25, -10, 0}), FalseEdgeCause::kNothingGone);
+}
+
 TEST_F(FalseEdgesTest, AMovedGridIsUnderstood) {
   T_world_grid_.translation() = Eigen::Vector3d(0, 2, 0);
   poses_[0].translation() = Eigen::Vector3d(0, 2, 0);
