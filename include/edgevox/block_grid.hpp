@@ -203,10 +203,10 @@ class SlotGrid {
 
   struct Block {
     std::array<Row, Layout::kRows> occupied;
-    std::array<uint32_t, Layout::kVoxels> slot;  ///< valid where occupied
+    std::array<uint32_t, Layout::kVoxels> slot;  ///< kNone where no voxel has been
   };
 
-  /// The voxel's slot; a new voxel gets `next`.
+  /// The voxel's slot; a new voxel gets `next`, one that was erased the slot it had.
   uint32_t insert(const VoxelIndex& v, uint32_t next) {
     Block& block = blockOf(Layout::block(v));
     Row& row = block.occupied[static_cast<size_t>(Layout::row(v))];
@@ -214,9 +214,16 @@ class SlotGrid {
     const auto bit = static_cast<Row>(1U << Layout::column(v));
     if ((row & bit) == 0) {
       row = static_cast<Row>(row | bit);
-      slot = next;
+      if (slot == kNone) slot = next;
     }
     return slot;
+  }
+
+  void erase(const VoxelIndex& v) {
+    const int32_t block = findBlock(Layout::block(v));
+    if (block == BlockTable::kNone) return;
+    Row& row = blocks_[static_cast<size_t>(block)].occupied[static_cast<size_t>(Layout::row(v))];
+    row = static_cast<Row>(row & ~(1U << Layout::column(v)));
   }
 
   uint32_t find(const VoxelIndex& v) const {
@@ -263,7 +270,10 @@ class SlotGrid {
     last_ = static_cast<size_t>(table_.findOrInsert(block));
     last_index_ = block;
     if (last_ == blocks_.size()) blocks_.emplace_back();
-    if (last_ == known) blocks_[last_].occupied.fill(0);
+    if (last_ == known) {
+      blocks_[last_].occupied.fill(0);
+      blocks_[last_].slot.fill(kNone);
+    }
     return blocks_[last_];
   }
 

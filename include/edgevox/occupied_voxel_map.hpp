@@ -31,6 +31,19 @@ struct VoxelGaussian {
   bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
 };
 
+/// Sums over points about some origin.
+struct Moments {
+  double count = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< [m]
+  Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< [m^2]
+
+  /// `count` points at one place.
+  static Moments at(const Eigen::Vector3d& point, double count);
+  Moments& operator+=(const Moments& more);
+  /// Of the same points about another origin.
+  Moments about(const Eigen::Vector3d& origin) const;
+};
+
 /// The voxels of one size with their Gaussians. Which of them are `selected` depends on the
 /// representation of the map.
 class GaussianLevel {
@@ -71,6 +84,11 @@ class GaussianLevel {
   /// if it is the scan's first there.
   bool add(uint32_t slot, const Eigen::Vector3d& centroid, const Eigen::Vector3f& to_sensor,
            uint32_t scan);
+  /// Takes points out of a voxel, about its centre; it must keep some of them. A voxel with two
+  /// sides stays as it is: of which the points were is not known.
+  void subtract(uint32_t slot, const Moments& points);
+  /// Takes an occupied voxel out.
+  void erase(const VoxelIndex& v);
   /// Computes the Gaussians of the selected cells that have changed.
   void updateSelected();
   /// Those of all cells that have changed.
@@ -84,6 +102,11 @@ class GaussianLevel {
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
+  /// Of the first side, about the voxel's centre.
+  Moments moments(uint32_t slot) const;
+  bool hasTwin(uint32_t slot) const { return gaussians_[slot].twin != VoxelGaussian::kNoTwin; }
+  /// Unit normal of the first side, zero if that is not flat.
+  Eigen::Vector3d normal(uint32_t slot) const;
   /// The block of 8 voxels a side that holds the voxel of a slot.
   size_t blockOf(uint32_t slot) const {
     return static_cast<size_t>(grid_.findBlock(Layout::block(voxels_[slot])));
@@ -111,7 +134,9 @@ class GaussianLevel {
   const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v,
                                    const Eigen::Vector3f& to_sensor, bool all) const;
   uint32_t newCell(const VoxelIndex& v);
+  uint32_t newTwin(const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
+  void setStale(uint32_t slot);
   enum class Side { kKeep, kRefresh };
   /// What a look at unselected voxels computes must not change where later centroids go: it keeps
   /// the side.
@@ -125,6 +150,7 @@ class GaussianLevel {
   Pool<Cell> cells_;
   Pool<VoxelIndex> voxels_;
   Pool<VoxelGaussian> gaussians_;
+  std::vector<uint32_t> free_twins_;
   std::vector<uint32_t> stale_;             // slots stale since the last update of any kind
   std::vector<uint32_t> stale_unselected_;  // before that; some are updated since, or repeated
 };
@@ -183,6 +209,8 @@ class OccupiedVoxelMap {
   Eigen::Vector3d centroid(const VoxelIndex& v) const;
 
   size_t ignoredCentroids() const { return ignored_; }
+  /// How often a voxel of level 0 has left, because later scans saw through it.
+  size_t clearedVoxels() const { return cleared_count_; }
   /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
   size_t packedBytes() const;
   /// What is held while mapping.
@@ -194,14 +222,26 @@ class OccupiedVoxelMap {
     uint32_t count = 0;
     uint32_t last_scan = 0;
     uint32_t hits = 0;
+    uint32_t last_pass = 0;  // scan that last saw through it
+    uint32_t passes = 0;     // scans that did since the last hit
   };
+  struct Sight;
 
   void addInside(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
+  Eigen::Vector3d centroidOf(uint32_t slot, const VoxelIndex& v) const;
   void addHits(const std::vector<Eigen::Vector3d>& centroids);
   void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
   /// A voxel that has its min_hits.
   void selectNew(int level, uint32_t slot);
   void markOccupied(const VoxelIndex& v);
+  void clearSeenThrough(const std::vector<Eigen::Vector3d>& centroids,
+                        const Eigen::Vector3d& sensor);
+  void lookThrough(const Sight& sight, const VoxelIndex& parent);
+  bool isSeenThrough(const Sight& sight, uint32_t parent_slot, const Eigen::Vector3d& point) const;
+  bool isHit(const VoxelIndex& v) const { return hit_grid_.find(v) != SlotGrid<8>::kNone; }
+  bool isHitBeside(const VoxelIndex& v) const;
+  void remove(const VoxelIndex& v);
+  void subtractMoments(const VoxelIndex& v);
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
   /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
   void countEdge(int level, const VoxelIndex& v, int change);
@@ -217,6 +257,7 @@ class OccupiedVoxelMap {
   int edge_neighbours_;  // see thinEdges()
   uint32_t scans_ = 0;
   size_t ignored_ = 0;
+  size_t cleared_count_ = 0;
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
   BitGrid<16> hit_voxels_;
@@ -230,6 +271,7 @@ class OccupiedVoxelMap {
   std::vector<VoxelIndex> voxels_;          // of the scan being added, at level 0
   std::vector<Eigen::Vector3f> to_sensor_;  // of the same, unit vectors
   std::vector<uint32_t> slots_;             // of the same, at one level
+  std::vector<VoxelIndex> cleared_;         // by the scan being added
 };
 
 /// Centroids of the voxels of level 0, in the order of the voxels [m].

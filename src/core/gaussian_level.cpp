@@ -132,6 +132,23 @@ float squaredDistance(const VoxelGaussian& g, const Eigen::Vector3f& point) {
 
 }  // namespace
 
+Moments Moments::at(const Eigen::Vector3d& point, double count) {
+  return {count, count * point, count * point * point.transpose()};
+}
+
+Moments& Moments::operator+=(const Moments& more) {
+  count += more.count;
+  sum += more.sum;
+  outer += more.outer;
+  return *this;
+}
+
+Moments Moments::about(const Eigen::Vector3d& origin) const {
+  const Eigen::Matrix3d cross = sum * origin.transpose();
+  return {count, sum - count * origin,
+          outer - cross - cross.transpose() + count * origin * origin.transpose()};
+}
+
 /// Calls visit(block, voxel) for the voxel of `point` and its six neighbours, where there is a
 /// block, until one returns true.
 template <typename Visit>
@@ -204,11 +221,19 @@ uint32_t GaussianLevel::newCell(const VoxelIndex& v) {
   return static_cast<uint32_t>(cells_.size() - 1);
 }
 
+uint32_t GaussianLevel::newTwin(const VoxelIndex& v) {
+  if (free_twins_.empty()) return newCell(v);
+  const uint32_t twin = free_twins_.back();
+  free_twins_.pop_back();
+  voxels_[twin] = v;
+  return twin;
+}
+
 /// The cell of the surface in the voxel that `to_sensor` sees.
 uint32_t GaussianLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor) {
   if (!gaussians_[slot].facesAway(to_sensor)) return slot;
-  if (gaussians_[slot].twin == VoxelGaussian::kNoTwin) {
-    const uint32_t twin = newCell(voxels_[slot]);
+  if (!hasTwin(slot)) {
+    const uint32_t twin = newTwin(voxels_[slot]);
     cells_[twin].is_twin = true;
     cells_[twin].selected = cells_[slot].selected;
     gaussians_[slot].twin = twin;
@@ -230,15 +255,48 @@ bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
     seen.view[i] += to_sensor[a];
   }
   ++seen.count;
-  if (!seen.stale) {
-    seen.stale = true;
-    stale_.push_back(side);
-  }
+  setStale(side);
   Cell& cell = cells_[slot];
   if (cell.last_scan == scan) return false;
   cell.last_scan = scan;
   if (cell.hits < std::numeric_limits<uint16_t>::max()) ++cell.hits;
   return true;
+}
+
+void GaussianLevel::setStale(uint32_t slot) {
+  if (cells_[slot].stale) return;
+  cells_[slot].stale = true;
+  stale_.push_back(slot);
+}
+
+void GaussianLevel::subtract(uint32_t slot, const Moments& points) {
+  if (hasTwin(slot)) return;
+  Cell& cell = cells_[slot];
+  const auto kept = static_cast<float>(1.0 - points.count / cell.count);
+  for (size_t i = 0; i < 3; ++i) {
+    const auto a = static_cast<Eigen::Index>(i);
+    cell.sum[i] -= static_cast<float>(points.sum[a]);
+    cell.outer[i] -= static_cast<float>(points.outer(a, a));
+    cell.outer[i + 3] -= static_cast<float>(points.outer(a, (a + 1) % 3));
+    cell.view[i] *= kept;
+  }
+  cell.count -= static_cast<uint32_t>(points.count);
+  setStale(slot);
+}
+
+void GaussianLevel::erase(const VoxelIndex& v) {
+  const uint32_t slot = slotOf(v);
+  select(slot, false);
+  if (hasTwin(slot)) {
+    const uint32_t twin = gaussians_[slot].twin;
+    cells_[twin] = {};
+    cells_[twin].is_twin = true;
+    gaussians_[twin] = {};
+    free_twins_.push_back(twin);
+  }
+  cells_[slot] = {};
+  gaussians_[slot] = {};
+  grid_.erase(v);
 }
 
 void GaussianLevel::update(uint32_t slot, Side side) {
@@ -296,6 +354,18 @@ void GaussianLevel::findFlatAxis(uint32_t slot) {
   const Surface surface(covarianceOf(cells_[slot], voxel_size_));
   const bool anchors = surface.flat && surface.patch > kLeastPatch;
   cells_[slot].flat_axis = anchors ? static_cast<int8_t>(surface.axis) : kNotFlat;
+}
+
+Moments GaussianLevel::moments(uint32_t slot) const {
+  const Cell& cell = cells_[slot];
+  return {static_cast<double>(cell.count),
+          {cell.sum[0], cell.sum[1], cell.sum[2]},
+          symmetric(cell.outer)};
+}
+
+Eigen::Vector3d GaussianLevel::normal(uint32_t slot) const {
+  const Surface surface(covarianceOf(cells_[slot], voxel_size_));
+  return surface.flat ? surface.normal : Eigen::Vector3d::Zero();
 }
 
 size_t GaussianLevel::selectedGaussians() const {

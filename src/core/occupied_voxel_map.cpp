@@ -93,6 +93,7 @@ void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids,
                  });
   addHits(centroids);
   for (int l = 1; l <= kGaussianLevels; ++l) addMoments(l, centroids);
+  if (config_.clear_after > 0) clearSeenThrough(centroids, sensor);
   for (GaussianLevel& g : gaussians_) g.updateSelected();
 }
 
@@ -114,6 +115,7 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
     ++hit.count;
     if (hit.last_scan == scans_) continue;
     hit.last_scan = scans_;
+    hit.passes = 0;
     if (++hit.hits == static_cast<uint32_t>(config_.min_hits)) {
       hit_voxels_.set(voxels_[i]);
       changed_.set(voxels_[i]);
@@ -251,6 +253,7 @@ void OccupiedVoxelMap::clear() {
   const size_t level_count = occupied_.size();
   scans_ = 0;
   ignored_ = 0;
+  cleared_count_ = 0;
   hit_grid_ = {};
   hits_ = {};
   hit_voxels_ = {};
@@ -265,7 +268,11 @@ void OccupiedVoxelMap::clear() {
 }
 
 Eigen::Vector3d OccupiedVoxelMap::centroid(const VoxelIndex& v) const {
-  const Hit& hit = hits_[hit_grid_.find(v)];
+  return centroidOf(hit_grid_.find(v), v);
+}
+
+Eigen::Vector3d OccupiedVoxelMap::centroidOf(uint32_t slot, const VoxelIndex& v) const {
+  const Hit& hit = hits_[slot];
   const Eigen::Vector3d sum(hit.sum[0], hit.sum[1], hit.sum[2]);
   return voxelCentre(v, voxel_size_) + sum / static_cast<double>(hit.count);
 }

@@ -110,6 +110,7 @@ void addMap(const OccupiedVoxelMap& map, Report& report) {
   report.add("occupied_voxels", occupied);
   report.add("edge_voxels", edges);
   report.add("compression", static_cast<double>(occupied) / static_cast<double>(edges));
+  report.add("cleared_voxels", uint64_t{map.clearedVoxels()});
   report.add("map_bytes", uint64_t{map.packedBytes()});
   report.add("map_bytes_working", uint64_t{map.bytes()});
   report.add("peak_rss_mb", peakMegabytes());

@@ -14,6 +14,7 @@
 #include <Eigen/LU>
 
 #include "edgevox/occupied_voxel_map.hpp"
+#include "support/random.hpp"
 #include "support/scans.hpp"
 
 namespace edgevox::test {
@@ -289,6 +290,44 @@ TEST(Selection, CountsVoxelsAndTheirGaussians) {
   for (const auto& entry : both.expected) both.level.select(both.level.slotOf(entry.first), false);
   EXPECT_EQ(0U, both.level.selectedCount());
   EXPECT_EQ(0U, both.level.selectedGaussians());
+}
+
+/// Points of a slanted plane in the voxel (0, 0, 0) of 0.4 m.
+Centroids pointsOfAPlane(Random& random, int count, double height) {
+  Centroids points;
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(0, 0.4);
+    points.push_back({x, random.uniform(0, 0.4), height + 0.2 * x + 0.005 * random.normal()});
+  }
+  return points;
+}
+
+void addTo(GaussianLevel& level, const Centroids& points) {
+  const uint32_t slot = level.slotFor({0, 0, 0});
+  for (const Vector3d& point : points) level.add(slot, point, {0, 0, 1}, 1);
+}
+
+TEST(Subtraction, LeavesTheGaussianOfTheOtherPoints) {
+  constexpr double kVoxel = 0.4;
+  Random random(8);
+  const Centroids kept = pointsOfAPlane(random, 60, 0.05);
+  const Centroids gone = pointsOfAPlane(random, 40, 0.25);
+  Moments moments;
+  for (const Vector3d& point : gone) moments += Moments::at(point, 1);
+  GaussianLevel expected(kVoxel);
+  addTo(expected, kept);
+  GaussianLevel level(kVoxel);
+  addTo(level, kept);
+  addTo(level, gone);
+  level.subtract(0, moments.about(voxelCentre({0, 0, 0}, kVoxel)));
+  for (GaussianLevel* each : {&expected, &level}) each->select(0, true);
+  const VoxelGaussian& a = expected.gaussian(0);
+  const VoxelGaussian& b = level.gaussian(0);
+  EXPECT_LT((a.mean - b.mean).norm(), 1e-6F);
+  EXPECT_LT((a.side - b.side).norm(), 1e-2F);
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(a.information[i], b.information[i], 1e-3F * a.information[2]);
+  }
 }
 
 }  // namespace

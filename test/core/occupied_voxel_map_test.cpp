@@ -42,15 +42,6 @@ MapConfig withRepresentation(Representation representation) {
   return config;
 }
 
-Voxels labelledAtOnce(const Voxels& hit, EdgeConfig config = {}) {
-  const auto occupied = gridOf<32>(hit);
-  BitGrid<32> candidates;
-  config.ratio = config.map_ratio;
-  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, candidates);
-  const bool paper = config.mode == EdgeMode::kPaper;
-  return thinnedAtOnce(voxelsOf(candidates), paper ? 0 : config.map_neighbours);
-}
-
 Voxels parents(Voxels voxels) {
   for (VoxelIndex& v : voxels) v = coarser(v, 1);
   return sorted(std::move(voxels));

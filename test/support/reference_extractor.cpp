@@ -7,6 +7,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "edgevox/edge_extractor.hpp"
+#include "support/voxel_sets.hpp"
+
 namespace edgevox::test {
 namespace {
 
@@ -219,6 +222,15 @@ std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates,
     if (count >= neighbours) thinned.push_back(v);
   }
   return thinned;
+}
+
+std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit, EdgeConfig config) {
+  const auto occupied = gridOf<32>(hit);
+  BitGrid<32> candidates;
+  config.ratio = config.map_ratio;
+  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, candidates);
+  const bool paper = config.mode == EdgeMode::kPaper;
+  return thinnedAtOnce(voxelsOf(candidates), paper ? 0 : config.map_neighbours);
 }
 
 }  // namespace edgevox::test

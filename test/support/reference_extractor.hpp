@@ -66,4 +66,7 @@ class ReferenceExtractor {
 /// Of the candidates those with at least `neighbours` others among their 26, one by one.
 std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates, int neighbours);
 
+/// The edges of a map with these occupied voxels, by the library's kernel on all of them.
+std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit, EdgeConfig config = {});
+
 }  // namespace edgevox::test

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Voxels that later scans see through leave the map.
+#include <algorithm>
+#include <cmath>
+
+#include "edgevox/occupied_voxel_map.hpp"
+#include "line_of_sight.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kLines = 4000;  // of sight a scan, in turn: bounds the time
+constexpr double kNear = 0.25;   // of a line from the centroid of a voxel it sees through [voxel]
+constexpr double kBehind = 1.0;  // of its end behind the surface [voxel]
+constexpr double kBehindRough = 2.0;  // the same where the surface is not flat
+constexpr int kChildren = 8;
+
+VoxelIndex child(const VoxelIndex& v, int i) {
+  return {2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
+}
+
+template <typename Test>
+bool anyChild(const VoxelIndex& v, const Test& test) {
+  for (int i = 0; i < kChildren; ++i) {
+    if (test(child(v, i))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct OccupiedVoxelMap::Sight {
+  Eigen::Vector3d sensor;
+  Eigen::Vector3d end;
+  double length;
+  Eigen::Vector3d direction;
+
+  Sight(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+      : sensor(from), end(to), length((to - from).norm()), direction((to - from) / length) {}
+
+  /// Whether the line passes within `near` of `point` and ends `behind` or more behind it.
+  bool passes(const Eigen::Vector3d& point, double near, double behind) const {
+    const Eigen::Vector3d to_point = point - sensor;
+    const double along = to_point.dot(direction);
+    return along > 0 && length - along >= behind &&
+           to_point.squaredNorm() - along * along <= near * near;
+  }
+
+  /// Whether it crosses the plane and ends `behind` or more behind it.
+  bool crosses(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double behind) const {
+    const double before = normal.dot(sensor - point);
+    const double after = normal.dot(end - point);
+    return before * after < 0 && std::abs(after) >= behind;
+  }
+};
+
+void OccupiedVoxelMap::clearSeenThrough(const std::vector<Eigen::Vector3d>& centroids,
+                                        const Eigen::Vector3d& sensor) {
+  const double inverse_size = 1.0 / voxelSize(1);
+  const size_t stride = 1 + centroids.size() / (kLines + 1);
+  cleared_.clear();
+  for (size_t i = scans_ % stride; i < centroids.size(); i += stride) {
+    const Sight sight(sensor, centroids[i]);
+    const double reach = sight.length - kBehind * voxel_size_;
+    if (!(reach > 0)) continue;
+    forEachOnLine(occupied_[1], sensor * inverse_size,
+                  (sensor + reach * sight.direction) * inverse_size,
+                  [&](const VoxelIndex& parent) { lookThrough(sight, parent); });
+  }
+  for (const VoxelIndex& v : cleared_) remove(v);
+  cleared_count_ += cleared_.size();
+}
+
+void OccupiedVoxelMap::lookThrough(const Sight& sight, const VoxelIndex& parent) {
+  const GaussianLevel& g = gaussians(1);
+  const uint32_t parent_slot = g.slotOf(parent);
+  if (g.cell(parent_slot).last_scan == scans_) return;  // then all its children are hit or beside
+  const auto block = static_cast<size_t>(hit_grid_.findBlock(coarser(parent, 2)));
+  for (int i = 0; i < kChildren; ++i) {
+    const VoxelIndex v = child(parent, i);
+    const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(block), v);
+    if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
+    if (!isSeenThrough(sight, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
+    Hit& hit = hits_[slot];
+    hit.last_pass = scans_;
+    if (++hit.passes == static_cast<uint32_t>(config_.clear_after)) cleared_.push_back(v);
+  }
+}
+
+/// Lines that graze a surface pass its voxels, too, and noise lifts points off it: neither ends
+/// far behind the surface.
+bool OccupiedVoxelMap::isSeenThrough(const Sight& sight, uint32_t parent_slot,
+                                     const Eigen::Vector3d& point) const {
+  if (!sight.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
+  const Eigen::Vector3d normal = gaussians(1).normal(parent_slot);
+  return normal.isZero() ? sight.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
+                         : sight.crosses(point, normal, kBehind * voxel_size_);
+}
+
+/// Whether this scan hit one of the 26 neighbours.
+bool OccupiedVoxelMap::isHitBeside(const VoxelIndex& v) const {
+  for (int i = 0; i < 27; ++i) {
+    const uint32_t slot = hit_grid_.find({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1});
+    if (slot != SlotGrid<8>::kNone && hits_[slot].last_scan == scans_) return true;
+  }
+  return false;
+}
+
+void OccupiedVoxelMap::remove(const VoxelIndex& v) {
+  if (hit_voxels_.reset(v)) changed_.set(v);
+  edge_candidates_.reset(v);
+  if (edge_voxels_.reset(v)) countEdge(1, coarser(v, 1), -1);
+  subtractMoments(v);
+  hits_[hit_grid_.find(v)] = {};
+  hit_grid_.erase(v);
+  VoxelIndex at = coarser(v, 1);
+  bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
+  for (int l = 1; !left; ++l) {
+    if (l <= kGaussianLevels) level(l).erase(at);
+    BitGrid<8>& bits = occupied_[static_cast<size_t>(l)];
+    bits.reset(at);
+    if (l + 1 == levels()) return;
+    at = coarser(at, 1);
+    left = anyChild(at, [&](const VoxelIndex& c) { return bits.test(c); });
+  }
+}
+
+/// Takes the points of a voxel out of the coarser ones. How they scatter is not kept: they are
+/// taken for their share of what scatters within all voxels of the coarser one.
+void OccupiedVoxelMap::subtractMoments(const VoxelIndex& v) {
+  const VoxelIndex parent = coarser(v, 1);
+  const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
+  const auto momentsOf = [&](const VoxelIndex& c) {
+    return Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
+  };
+  const GaussianLevel& g = gaussians(1);
+  const uint32_t slot = g.slotOf(parent);
+  if (g.hasTwin(slot)) return;
+  Moments all;
+  for (int i = 0; i < kChildren; ++i) {
+    if (isHit(child(parent, i))) all += momentsOf(child(parent, i));
+  }
+  Moments gone = momentsOf(v);
+  gone.outer += gone.count / all.count * (g.moments(slot).outer - all.outer);
+  for (int l = 1; l <= kGaussianLevels; ++l) {
+    const VoxelIndex at = coarser(v, l);
+    const uint32_t its_slot = level(l).slotOf(at);
+    level(l).subtract(its_slot, gone.about(voxelCentre(at, voxelSize(l)) - origin));
+    touch(l, its_slot);
+  }
+}
+
+}  // namespace edgevox

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Voxels that later scans see through leave the map, and nothing else does.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Core>
+
+#include "edgevox/occupied_voxel_map.hpp"
+#include "support/random.hpp"
+#include "support/reference_extractor.hpp"
+#include "support/scans.hpp"
+#include "support/voxel_sets.hpp"
+
+namespace edgevox::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSize = kScanMapVoxel;
+constexpr int kClearAfter = 3;
+
+enum class Box { kThere, kGone };
+
+/// A hall in front of the sensor, and a box in it [m].
+const Vector3d kHallMin(-1, -3, -1.23);
+const Vector3d kHallMax(6.04, 3, 1.5);
+const Vector3d kBoxMin(3.02, -0.5, -1.23);
+const Vector3d kBoxMax(3.98, 0.5, 0.3);
+
+/// Where a ray from outside enters the box, in lengths of `ray`; infinite if it does not.
+double rangeOfBox(const Vector3d& from, const Vector3d& ray) {
+  const Eigen::Array3d a = (kBoxMin - from).array() / ray.array();
+  const Eigen::Array3d b = (kBoxMax - from).array() / ray.array();
+  const double enter = a.min(b).maxCoeff();
+  return enter > 0 && enter < a.max(b).minCoeff() ? enter : std::numeric_limits<double>::infinity();
+}
+
+double rangeOfHall(const Vector3d& from, const Vector3d& ray) {
+  const Eigen::Array3d a = (kHallMin - from).array() / ray.array();
+  const Eigen::Array3d b = (kHallMax - from).array() / ray.array();
+  return a.max(b).minCoeff();
+}
+
+/// Lidar scans of the hall, from the left and from the right of the box in turn.
+class Scanner {
+ public:
+  void scan(Box box, OccupiedVoxelMap& map) {
+    left_ = !left_;
+    const Vector3d sensor(0.013, (left_ ? 1.3 : -1.3) + 0.1 * random_.normal(),
+                          0.9 + 0.1 * random_.normal());
+    Centroids hits;
+    for (double azimuth = -0.6; azimuth < 0.6; azimuth += 0.011) {
+      for (double elevation = -0.6; elevation < 0.2; elevation += 0.011) {
+        const Vector3d ray(std::cos(elevation) * std::cos(azimuth),
+                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        double range = rangeOfHall(sensor, ray);
+        if (box == Box::kThere) range = std::min(range, rangeOfBox(sensor, ray));
+        hits.push_back(sensor + (range + 0.01 * random_.normal()) * ray);
+      }
+    }
+    map.insert(hits, sensor);
+  }
+
+  void scan(int count, Box box, OccupiedVoxelMap& map) {
+    for (int i = 0; i < count; ++i) scan(box, map);
+  }
+
+ private:
+  Random random_{31};
+  bool left_ = false;
+};
+
+OccupiedVoxelMap mapThatClearsAfter(int scans) {
+  MapConfig config;
+  config.clear_after = scans;
+  return OccupiedVoxelMap(kSize, 3.2, config, EdgeConfig{}, 1);
+}
+
+/// Voxels inside the box, clear of the floor that stays.
+size_t voxelsInBox(const Voxels& voxels) {
+  const Vector3d margin(kSize, kSize, 2 * kSize);
+  size_t count = 0;
+  for (const VoxelIndex& v : voxels) {
+    const Vector3d centre = voxelCentre(v, kSize);
+    const bool inside = (centre.array() > (kBoxMin - margin).array()).all() &&
+                        (centre.array() < (kBoxMax + margin).array()).all();
+    count += inside && centre.z() > kBoxMin.z() + 2 * kSize ? 1 : 0;
+  }
+  return count;
+}
+
+size_t voxelsInBox(const OccupiedVoxelMap& map) { return voxelsInBox(voxelsOf(map.hitVoxels())); }
+
+TEST(SeeThrough, AThingTakenAwayLeavesTheMap) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  EXPECT_LT(200U, voxelsInBox(map));
+  EXPECT_LT(50U, voxelsInBox(voxelsOf(map.edgeVoxels())));
+  scanner.scan(30, Box::kGone, map);
+  EXPECT_EQ(0U, voxelsInBox(map));
+  EXPECT_EQ(0U, voxelsInBox(voxelsOf(map.edgeVoxels())));
+}
+
+TEST(SeeThrough, NothingLeavesByDefault) {
+  OccupiedVoxelMap map = mapThatClearsAfter(MapConfig{}.clear_after);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  const size_t before = voxelsInBox(map);
+  scanner.scan(30, Box::kGone, map);
+  EXPECT_EQ(before, voxelsInBox(map));
+  EXPECT_EQ(0U, map.clearedVoxels());
+}
+
+TEST(SeeThrough, WhatStandsStillStays) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  OccupiedVoxelMap untouched = mapThatClearsAfter(0);
+  for (OccupiedVoxelMap* each : {&map, &untouched}) Scanner().scan(40, Box::kThere, *each);
+  const auto voxels = static_cast<double>(untouched.hitVoxels().voxelCount());
+  EXPECT_LT(static_cast<double>(map.clearedVoxels()), 1e-3 * voxels);
+}
+
+TEST(SeeThrough, AHitStartsTheCountAnew) {
+  OccupiedVoxelMap map = mapThatClearsAfter(6);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  const size_t before = voxelsInBox(map);
+  for (int i = 0; i < 10; ++i) {
+    scanner.scan(4, Box::kGone, map);
+    scanner.scan(2, Box::kThere, map);
+  }
+  EXPECT_LT(before * 9 / 10, voxelsInBox(map));
+}
+
+TEST(SeeThrough, AllLevelsAgree) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  scanner.scan(6, Box::kGone, map);
+  map.label();
+  ASSERT_LT(100U, map.clearedVoxels());
+  for (int l = 1; l < map.levels(); ++l) {
+    Voxels expected;
+    if (l == 1) {
+      const GaussianLevel& g = map.gaussians(1);
+      for (uint32_t slot = 0; slot < g.size(); ++slot) {
+        if (g.cell(slot).hits > 0) expected.push_back(g.voxel(slot));
+      }
+    } else {
+      expected = voxelsOf(map.occupied(l - 1));
+      for (VoxelIndex& v : expected) v = coarser(v, 1);
+    }
+    EXPECT_TRUE(sameVoxels(sorted(expected), voxelsOf(map.occupied(l)))) << "level " << l;
+  }
+  map.hitVoxels().forEach(
+      [&](const VoxelIndex& v) { EXPECT_TRUE(map.occupied(1).test(coarser(v, 1))); });
+}
+
+TEST(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  scanner.scan(5, Box::kGone, map);
+  map.label();
+  ASSERT_LT(100U, map.clearedVoxels());
+  EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map.hitVoxels())), voxelsOf(map.edgeVoxels())));
+  for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
+    const GaussianLevel& g = map.gaussians(l);
+    Voxels children = voxelsOf(map.edgeVoxels());
+    for (VoxelIndex& v : children) v = coarser(v, l);
+    for (const VoxelIndex& v : sorted(children)) {
+      EXPECT_LT(0, g.cell(g.slotOf(v)).edge_children);
+    }
+  }
+}
+
+TEST(SeeThrough, ComingAndGoingTakesNoMemory) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  size_t bytes = 0;
+  for (int round = 0; round < 12; ++round) {
+    scanner.scan(3, Box::kThere, map);
+    scanner.scan(8, Box::kGone, map);
+    if (round == 5) bytes = map.bytes();
+  }
+  EXPECT_LT(2000U, map.clearedVoxels());
+  EXPECT_LE(static_cast<double>(map.bytes()), 1.02 * static_cast<double>(bytes));
+}
+
+TEST(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  scanner.scan(6, Box::kThere, map);
+  scanner.scan(30, Box::kGone, map);
+  map.label();
+  map.prepareAll();
+  const Eigen::Vector3f front = Vector3d(kBoxMin.x(), 0, -0.1).cast<float>();
+  for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
+    EXPECT_FALSE(map.gaussians(l).hasNear(front, true)) << "level " << l;
+  }
+}
+
+TEST(SeeThrough, ClearForgetsTheCount) {
+  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
+  Scanner scanner;
+  scanner.scan(3, Box::kThere, map);
+  scanner.scan(6, Box::kGone, map);
+  EXPECT_LT(0U, map.clearedVoxels());
+  map.clear();
+  EXPECT_EQ(0U, map.clearedVoxels());
+}
+
+}  // namespace
+}  // namespace edgevox::test
