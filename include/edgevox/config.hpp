@@ -73,6 +73,7 @@ struct MapperConfig {
   int fallback_matches = 100;       ///< match all voxels below it
   double clock_jump = 2.0;          ///< a stamp so much before the last one is no late scan [s]
   AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;
+  int edge_window = 10;  ///< scans by whose occupancy the edges of the last one are told
 };
 
 struct Config {

@@ -10,6 +10,7 @@
 #include "edgevox/matcher.hpp"
 #include "edgevox/motion.hpp"
 #include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/recent_edges.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "edgevox/voxel.hpp"
 
@@ -85,6 +86,8 @@ class Mapper {
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
 
   const OccupiedVoxelMap& map() const { return map_; }
+  /// Of the last located scan.
+  const RecentEdges& recentEdges() const { return recent_edges_; }
   /// Brings the labels up to date, for output.
   void finishLabels() { map_.label(); }
   /// Forgets map and motion; the next scan is the first.
@@ -115,6 +118,7 @@ class Mapper {
   ClockWatch clock_watch_;  // of the located scans
   Matcher matcher_;
   OccupiedVoxelMap map_;
+  RecentEdges recent_edges_;
   Pose T_map_sensor_ = Pose::Identity();  // at the stamp of the last located scan
   std::optional<Located> last_;           // none if the motion is not known
   Twist twist_;                           // from the last but one located sweep to the last

@@ -85,6 +85,9 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"mapper/after_clock_jump", choiceOf(c.mapper.after_clock_jump, {"keep_map", "clear_map"}), 0,
        0, "",
        "what to do with the map when the clock has jumped back; the velocity is forgotten anyway"},
+      {"mapper/edge_window", &c.mapper.edge_window, 1, 100, "",
+       "scans, the last one among them, by which the edges of the last one are told on "
+       "`scan_edges`"},
   };
 }
 

@@ -75,7 +75,8 @@ Mapper::Mapper(const Config& config, Clock clock)
       clock_watch_(config.mapper.clock_jump),
       matcher_(config.matcher),
       map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
-           config.threads) {}
+           config.threads),
+      recent_edges_(config.voxel_size, config.edges, config.mapper.edge_window, config.threads) {}
 
 ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   StageTimer timer(clock_);
@@ -122,6 +123,7 @@ void Mapper::forgetMotion() {
   last_.reset();
   twist_ = {};
   twist_in_sweep_ = {};
+  recent_edges_.clear();
 }
 
 /// Deskews by the predicted motion, matches; once more by the motion that the match has shown.
@@ -239,6 +241,7 @@ void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& r
       scan.voxels.begin(), scan.voxels.end(), centroids.begin(),
       [&](const ScanVoxel& voxel) -> Eigen::Vector3d { return T_map_sensor * deskew(voxel); });
   map_.add(centroids, T_map_sensor.translation());
+  recent_edges_.add(centroids);
   result.times.insert = timer.lap();
   if (map_.labelDue()) map_.label();
   result.times.label = timer.lap();

@@ -8,6 +8,7 @@
 
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/recent_edges.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
 #include "evaluation/edge_truth.hpp"
@@ -201,6 +202,9 @@ class SizeMeasurement {
       writeSums(sums, recording_.scans.size(), table);
       writeMoved(sums.truth, table);
     }
+    note("edges of scans in a window");
+    startRow("scan in a window", table);
+    writeSums(measureWindows(), recording_.scans.size(), table);
     note("edges of the map");
     startRow("map", table);
     writeMap(map_, table);
@@ -218,15 +222,38 @@ class SizeMeasurement {
   }
 
   ScanSums measureScans(const Method& method) {
-    ScanSums sums;
     EdgeExtractor extractor(configOf(method, options_.config.edges), 1);
-    std::deque<LabelledVoxels> before;
-    for (size_t i = 0; i < recording_.scans.size(); ++i) {
-      VoxelScan scan = voxelizer_.voxelize(recording_.scans[i].view);
+    return measureEach([&](size_t i, VoxelScan scan, double& seconds) {
       StageTimer timer(Clock::kProcessCpu);
       extractor.extract(scan);
-      sums.seconds += timer.lap();
-      LabelledVoxels voxels = labelledVoxels(recording_, i, scan);
+      seconds += timer.lap();
+      return labelledVoxels(recording_, i, scan);
+    });
+  }
+
+  /// In the turned grid, as no scan lies along the map's axes.
+  ScanSums measureWindows() {
+    const Config& config = options_.config;
+    const Pose T_map_grid = turnedGrid(voxel_size_);
+    RecentEdges recent(voxel_size_, config.edges, config.mapper.edge_window, 1);
+    return measureEach([&](size_t i, const VoxelScan& scan, double& seconds) {
+      auto centroids = placedCentroids(recording_, i, scan);
+      for (Eigen::Vector3d& centroid : centroids) centroid = T_map_grid.inverse() * centroid;
+      StageTimer timer(Clock::kProcessCpu);
+      recent.add(centroids);
+      const BitGrid<16> edges = recent.edgeVoxels();
+      seconds += timer.lap();
+      return labelledVoxels(recent.occupied(), edges, voxel_size_, T_map_grid);
+    });
+  }
+
+  /// `label(i, scan, seconds)` gives the voxels of a scan and adds the time it took.
+  template <typename Label>
+  ScanSums measureEach(const Label& label) {
+    ScanSums sums;
+    std::deque<LabelledVoxels> before;
+    for (size_t i = 0; i < recording_.scans.size(); ++i) {
+      LabelledVoxels voxels = label(i, voxelizer_.voxelize(recording_.scans[i].view), sums.seconds);
       addScan(i, voxels, sums);
       if (before.size() == options_.pair_step) {
         const Cells cells = cellsOf(voxels, voxels.T_map_grid);
@@ -244,6 +271,7 @@ class SizeMeasurement {
     sums.recall += recallOf(voxels, map_cells_.edges);
     if (judge_ == nullptr) return;
     sums.truth += judge_->score(voxels, truth_->seen_by[i]);
+    if (voxels.in_map) return;  // the causes lie in the scans before as well
     const SimulatedTruth& simulated = *recording_.truth;
     const FalseEdgeJudge judge(simulated.world, simulated.sensor,
                                {recording_.scans[i].T_map_sensor}, movedIn(recording_, i, i));

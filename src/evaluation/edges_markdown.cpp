@@ -25,7 +25,10 @@ std::string head(const Recording& recording, const EdgeMeasureOptions& options) 
   }
   return text +
          ".\n\nEdges of a scan are extracted as published (Ryde, Delmerico, Corso, eq. 5-7), or by "
-         "the default without or with its support filter. The map holds all scans, deskewed, at "
+         "the default without or with its support filter; `in a window`: by the occupancy of the "
+         "scan and of those before it, so many in all (`mapper/edge_window`): " +
+         std::to_string(options.config.mapper.edge_window) +
+         ". The map holds all scans, deskewed, at "
          "these poses; its occupied voxels are those hit by so many scans: " +
          std::to_string(options.config.map.min_hits) +
          ". In a simulated world floors and walls lie on the borders of its voxels, where noise "

@@ -52,17 +52,22 @@ LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const Vox
   return labelled;
 }
 
-LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid) {
+LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& edges,
+                              double voxel_size, const Pose& T_map_grid) {
   LabelledVoxels labelled;
-  labelled.voxel_size = map.voxelSize(0);
+  labelled.voxel_size = voxel_size;
   labelled.T_map_grid = T_map_grid;
-  map.hitVoxels().forEach([&](const VoxelIndex& v) {
-    const bool edge = map.edgeVoxels().test(v);
-    const Eigen::Vector3d centre = T_map_grid * voxelCentre(v, labelled.voxel_size);
-    labelled.voxels.push_back({v, centre, 0.0, edge});
+  labelled.in_map = true;
+  occupied.forEach([&](const VoxelIndex& v) {
+    const bool edge = edges.test(v);
+    labelled.voxels.push_back({v, T_map_grid * voxelCentre(v, voxel_size), 0.0, edge});
     labelled.edges += edge ? 1 : 0;
   });
   return labelled;
+}
+
+LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid) {
+  return labelledVoxels(map.hitVoxels(), map.edgeVoxels(), map.voxelSize(0), T_map_grid);
 }
 
 std::vector<Eigen::Vector3d> placedCentroids(const Recording& recording, size_t scan,

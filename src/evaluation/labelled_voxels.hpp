@@ -25,12 +25,16 @@ struct LabelledVoxels {
   Pose T_map_grid = Pose::Identity();  ///< of a scan: T_map_sensor at the stamp
   std::vector<LabelledVoxel> voxels;
   size_t edges = 0;
+  bool in_map = false;  ///< the grid stands in the map, as against one that moves with the sensor
 
   size_t occupied() const { return voxels.size(); }
 };
 
 /// Of scan number `scan` of the recording, voxelized at half the map's voxel and labelled.
 LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const VoxelScan& voxels);
+/// Of a grid that stands in the map.
+LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& edges,
+                              double voxel_size, const Pose& T_map_grid);
 /// Of the voxels with enough hits of a map in a grid of its own.
 LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nodes/save_run.hpp"
+#include "ros/map_messages.hpp"
 #include "ros/voxel_scan_message.hpp"
 
 namespace edgevox {
@@ -30,6 +31,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       listener_(transforms_, handle),
       clock_watch_(parameters_.config.mapper.clock_jump),
       reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
+      scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       map_publisher_(handle, parameters_.map_frame),
       transformer_(SensorFrames(transforms_, parameters_.frames)),
       map_transform_(handle, transforms_, parameters_.map_frame, parameters_.frames.odom),
@@ -97,6 +99,7 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
                   std::string(cleared ? "cleared" : "kept; call reset for a new one"));
   }
   publishPose(scan, result, transforms);
+  if (result.located()) publishScanEdges(scan.header.stamp);
   ScanReport report = reportOn(scan, result);
   report.latency = latencyOf(scan);
   const double total = static_cast<double>(report.voxelize + report.extract + report.match +
@@ -125,6 +128,14 @@ void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& res
   if (!result.located()) return;
   pose_publisher_.publish(scan.header, result, transforms.T_base_sensor);
   last_stamp_ = scan.header.stamp;
+}
+
+void MapperNode::publishScanEdges(const ros::Time& stamp) const {
+  if (scan_edges_.getNumSubscribers() == 0) return;
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = parameters_.map_frame;
+  scan_edges_.publish(toCloud(mapper_.recentEdges().edgeCentroids(), header));
 }
 
 void MapperNode::tell(ScanReport report) {

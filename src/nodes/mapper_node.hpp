@@ -29,8 +29,9 @@
 
 namespace edgevox {
 
-/// `edges` (or `voxels`) to the pose on TF, `odom` and `path`, and to the map on `map_edges`,
-/// `map_boxes` and `map_occupied`. `scan_report` tells what became of every scan.
+/// `edges` (or `voxels`) to the pose on TF, `odom` and `path`, to the map on `map_edges`,
+/// `map_boxes` and `map_occupied`, and to the edges of the last scan by those before it on
+/// `scan_edges`. `scan_report` tells what became of every scan.
 class MapperNode {
  public:
   /// Throws ConfigError.
@@ -47,6 +48,7 @@ class MapperNode {
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
   void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                    const ScanTransforms& transforms);
+  void publishScanEdges(const ros::Time& stamp) const;
   void tell(ScanReport report);
   void publishMap();
   bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
@@ -59,6 +61,7 @@ class MapperNode {
   tf2_ros::TransformListener listener_;
   ClockWatch clock_watch_;
   ros::Publisher reports_;
+  ros::Publisher scan_edges_;
   MapPublisher map_publisher_;
 
   std::mutex mutex_;  // of all below, up to the input

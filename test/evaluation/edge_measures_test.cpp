@@ -92,10 +92,11 @@ TEST_F(EdgeMeasuresTest, AgreeWithTheExtractorItself) {
 }
 
 TEST_F(EdgeMeasuresTest, TellTheExtractorsApart) {
-  ASSERT_EQ(rows_.size(), 9U);
+  ASSERT_EQ(rows_.size(), 10U);
   const Row& paper = rows_.at("scan as published");
   const Row& plain = rows_.at("scan without support");
   const Row& supported = rows_.at("scan with support");
+  const Row& window = rows_.at("scan in a window");
   const Row& map = rows_.at("map");
   // The sensor stands still: what is real is found again.
   EXPECT_GT(number(supported, "again_edges"), 0.8);
@@ -106,6 +107,9 @@ TEST_F(EdgeMeasuresTest, TellTheExtractorsApart) {
   EXPECT_GT(number(supported, "map_precision"), number(plain, "map_precision") + 0.05);
   EXPECT_LE(number(supported, "map_recall"), number(plain, "map_recall"));  // a subset
   EXPECT_GT(number(supported, "map_recall"), 0.9);
+  EXPECT_GT(number(window, "precision"), number(supported, "precision"));
+  EXPECT_GT(number(window, "above_chance"), 0.5);
+  EXPECT_EQ("", window.at("false_gap"));  // of more scans than one
   EXPECT_GT(number(map, "coverage"), 0.5);
   EXPECT_GT(number(map, "compression_all"), 1.5);
   // Floor and walls on the borders of voxels are two voxels thick.
@@ -138,6 +142,28 @@ TEST_F(EdgeMeasuresTest, CountGhostsWhereSomethingMoves) {
   const std::string text = edgesMarkdown(recording, smallOptions(), table);
   EXPECT_NE(text.find("## Ghosts"), std::string::npos);
   EXPECT_NE(text.find("| moved object |"), std::string::npos);
+}
+
+/// Ten scans of 16 lines tell wall corners and doors from the gaps between the lines.
+TEST(SparseLidar, EdgesInAWindowAreTrueOnes) {
+  for (const char* world : {"building:16", "corridor:16"}) {
+    RecordingOptions input;
+    input.input = world;
+    input.first = 60;
+    input.most = 20;
+    EdgeMeasureOptions options = smallOptions();
+    options.pair_step = 10;
+    const auto rows =
+        rowsByMethod(measureEdges(makeRecording(input), options, [](const std::string&) {}));
+    const Row& window = rows.at("scan in a window");
+    const Row& alone = rows.at("scan with support");
+    for (const char* figure : {"precision", "coverage"}) {
+      RecordProperty(std::string(figure) + "_" + world, window.at(figure));
+    }
+    EXPECT_GT(number(window, "precision"), number(alone, "precision") + 0.05) << world;
+    EXPECT_GT(number(window, "precision"), 0.9) << world;
+    EXPECT_GT(number(window, "coverage"), number(alone, "coverage") - 0.1) << world;
+  }
 }
 
 TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {

@@ -77,6 +77,22 @@ class MapTest : public MapperTest {
   }
 };
 
+TEST_F(MapTest, ComesWithTheEdgesOfEveryLocatedScan) {
+  start();
+  const Listener<Cloud> edges(resolved("scan_edges"));
+  Scans sent = firstScans(kMiddle);
+  sent.push_back(randomScan(stampAfter(kMiddle - 1, 0.1)));
+  map(sent);
+  ASSERT_TRUE(edges.waitFor(kMiddle));
+  Mapper mapper{Config{}};
+  for (size_t i = 0; i < kMiddle; ++i) {
+    mapper.process(fromMessage(sent[i]));
+    const auto expected = mapper.recentEdges().edgeCentroids();
+    expectCloud(expected, sent[i].header.stamp, *edges.messages()[i]);
+  }
+  EXPECT_EQ(kMiddle, edges.count()) << "the last one is lost";
+}
+
 TEST_F(MapTest, ReachesLateListenersWhole) {
   start();
   map(scans());
