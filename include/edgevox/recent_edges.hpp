@@ -23,11 +23,11 @@ class RecentEdges {
   RecentEdges(double voxel_size, const EdgeConfig& config, int scans, int threads);
 
   /// One scan's centroids, map frame [m]; those out of the grid's range are ignored.
-  void add(const std::vector<Eigen::Vector3d>& centroids);
+  void add(std::vector<Eigen::Vector3d> centroids);
   void clear();
 
   /// Voxels of the last scan.
-  const BitGrid<16>& occupied() const { return occupied_; }
+  BitGrid<16> occupied() const;
   /// Those of them that are edges.
   BitGrid<16> edgeVoxels() const;
   /// Centroids of the last scan in these, in their order [m].
@@ -38,9 +38,8 @@ class RecentEdges {
   EdgeLabeller<16> labeller_;
   int neighbours_;  // see thinEdges()
   size_t window_;
-  std::deque<std::vector<VoxelIndex>> before_;  // voxels of the scans before the last one
-  std::vector<Eigen::Vector3d> centroids_;      // of the last scan
-  BitGrid<16> occupied_;
+  std::deque<std::vector<VoxelIndex>> scans_;  // their voxels, some of them repeated
+  std::vector<Eigen::Vector3d> centroids_;     // of the last scan
 };
 
 }  // namespace edgevox

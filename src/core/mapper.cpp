@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -241,7 +242,7 @@ void Mapper::insert(const VoxelScan& scan, const SweepTime& sweep, ScanResult& r
       scan.voxels.begin(), scan.voxels.end(), centroids.begin(),
       [&](const ScanVoxel& voxel) -> Eigen::Vector3d { return T_map_sensor * deskew(voxel); });
   map_.add(centroids, T_map_sensor.translation());
-  recent_edges_.add(centroids);
+  recent_edges_.add(std::move(centroids));
   result.times.insert = timer.lap();
   if (map_.labelDue()) map_.label();
   result.times.label = timer.lap();

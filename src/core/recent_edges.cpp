@@ -2,7 +2,7 @@
 #include "edgevox/recent_edges.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "dilate.hpp"
 
@@ -18,9 +18,14 @@ EdgeLabeller<16> windowLabeller(const EdgeConfig& config, int threads) {
   return {of_window, config.scan_support, threads};
 }
 
-std::vector<VoxelIndex> voxelsOf(const BitGrid<16>& grid) {
+/// Repeats that follow one another are left out.
+std::vector<VoxelIndex> voxelsOf(const std::vector<Eigen::Vector3d>& centroids, double size) {
   std::vector<VoxelIndex> voxels;
-  grid.forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
+  voxels.reserve(centroids.size());
+  for (const Eigen::Vector3d& c : centroids) {
+    const VoxelIndex v = voxelAt(c, 1.0 / size);
+    if (voxels.empty() || v != voxels.back()) voxels.push_back(v);
+  }
   return voxels;
 }
 
@@ -32,34 +37,41 @@ RecentEdges::RecentEdges(double voxel_size, const EdgeConfig& config, int scans,
       neighbours_(config.mode == EdgeMode::kPaper ? 0 : kNeighbours),
       window_(static_cast<size_t>(scans)) {}
 
-void RecentEdges::add(const std::vector<Eigen::Vector3d>& centroids) {
-  before_.push_back(voxelsOf(occupied_));
-  if (before_.size() >= window_) before_.pop_front();
+void RecentEdges::add(std::vector<Eigen::Vector3d> centroids) {
   const double limit = (kIndexLimit - 1) * voxel_size_;
-  centroids_.clear();
-  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(centroids_),
-               [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
-  occupied_.clear();
-  for (const Eigen::Vector3d& c : centroids_) occupied_.set(voxelAt(c, 1.0 / voxel_size_));
+  const auto is_outside = [limit](const Eigen::Vector3d& c) {
+    return !(c.array().abs() < limit).all();
+  };
+  centroids.erase(std::remove_if(centroids.begin(), centroids.end(), is_outside), centroids.end());
+  centroids_ = std::move(centroids);
+  scans_.push_back(voxelsOf(centroids_, voxel_size_));
+  if (scans_.size() > window_) scans_.pop_front();
 }
 
 void RecentEdges::clear() {
-  before_.clear();
+  scans_.clear();
   centroids_.clear();
-  occupied_.clear();
+}
+
+BitGrid<16> RecentEdges::occupied() const {
+  BitGrid<16> occupied;
+  if (scans_.empty()) return occupied;
+  for (const VoxelIndex& v : scans_.back()) occupied.set(v);
+  return occupied;
 }
 
 BitGrid<16> RecentEdges::edgeVoxels() const {
-  BitGrid<16> occupied = occupied_;
-  for (const auto& scan : before_) {
-    for (const VoxelIndex& v : scan) occupied.set(v);
+  const BitGrid<16> last = occupied();
+  BitGrid<16> window;
+  for (const auto& scan : scans_) {
+    for (const VoxelIndex& v : scan) window.set(v);
   }
   BitGrid<16> targets;
-  Dilation<16>(1, occupied, targets).add(occupied_);
+  Dilation<16>(1, window, targets).add(last);
   BitGrid<16> candidates;
-  labeller_.label(occupied, targets, candidates);
+  labeller_.label(window, targets, candidates);
   BitGrid<16> edges;
-  thinEdges(candidates, occupied_, neighbours_, edges);
+  thinEdges(candidates, last, neighbours_, edges);
   return edges;
 }
 
