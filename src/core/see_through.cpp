@@ -9,7 +9,7 @@
 namespace edgevox {
 namespace {
 
-constexpr size_t kLines = 4000;  // of sight a scan, in turn: bounds the time
+constexpr size_t kLines = 8000;  // of sight a scan, in turn: bounds the time
 constexpr double kNear = 0.25;   // of a line from the centroid of a voxel it sees through [voxel]
 constexpr double kBehind = 1.0;  // of its end behind the surface [voxel]
 constexpr double kBehindRough = 2.0;  // the same where the surface is not flat
