@@ -14,9 +14,11 @@ namespace {
 
 using benchmark::State;
 
-OccupiedVoxelMap mapOf(const Sequence& s, size_t scans) {
-  OccupiedVoxelMap map(s.config.voxel_size, s.config.matcher.coarsest_voxel, s.config.map,
-                       s.config.edges, 1);
+OccupiedVoxelMap mapOf(const Sequence& s, size_t scans, int clear_after = 0) {
+  MapConfig config = s.config.map;
+  config.clear_after = clear_after;
+  OccupiedVoxelMap map(s.config.voxel_size, s.config.matcher.coarsest_voxel, config, s.config.edges,
+                       1);
   for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i], s.poses[i].translation());
   map.label();
   return map;
@@ -25,12 +27,13 @@ OccupiedVoxelMap mapOf(const Sequence& s, size_t scans) {
 /// Times `step`, for a scan, over the second half of the sequence. Between steps, not timed,
 /// `between` works on the same map.
 template <typename Step, typename Between>
-void timeSteps(State& state, const std::string& name, const Step& step, const Between& between) {
+void timeSteps(State& state, const std::string& name, const Step& step, const Between& between,
+               int clear_after = 0) {
   const Sequence& s = sequence(name);
   const size_t count = s.size() - s.half();
   while (state.KeepRunningBatch(static_cast<int64_t>(count))) {
     state.PauseTiming();
-    OccupiedVoxelMap map = mapOf(s, s.half());
+    OccupiedVoxelMap map = mapOf(s, s.half(), clear_after);
     for (size_t i = s.half(); i < s.size(); ++i) {
       between(map, s, i);
       state.ResumeTiming();
@@ -46,10 +49,15 @@ void addScan(OccupiedVoxelMap& map, const Sequence& s, size_t i) {
   map.add(s.centroids[i], s.poses[i].translation());
 }
 
-void insert(State& state, const std::string& name) {
-  timeSteps(state, name, addScan, [](OccupiedVoxelMap& map, const Sequence&, size_t) {
-    if (map.labelDue()) map.label();
-  });
+void labelIfDue(OccupiedVoxelMap& map, const Sequence&, size_t) {
+  if (map.labelDue()) map.label();
+}
+
+void insert(State& state, const std::string& name) { timeSteps(state, name, addScan, labelIfDue); }
+
+void insertClearing(State& state, const std::string& name) {
+  constexpr int kClearAfter = 5;
+  timeSteps(state, name, addScan, labelIfDue, kClearAfter);
 }
 
 void label(State& state, const std::string& name) {
@@ -113,6 +121,7 @@ void pipeline(State& state, const std::string& name) {
 
 void addMapBenchmarks(const std::string& sequence_name) {
   add("insert", sequence_name, insert);
+  add("insert_clearing", sequence_name, insertClearing);
   add("label", sequence_name, label);
   add("search", sequence_name, search);
   add("refine", sequence_name, refine);

@@ -94,28 +94,33 @@ size_t voxelsInBox(const Voxels& voxels) {
 
 size_t voxelsInBox(const OccupiedVoxelMap& map) { return voxelsInBox(voxelsOf(map.hitVoxels())); }
 
-TEST(SeeThrough, AThingTakenAwayLeavesTheMap) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  EXPECT_LT(200U, voxelsInBox(map));
-  EXPECT_LT(50U, voxelsInBox(voxelsOf(map.edgeVoxels())));
-  scanner.scan(30, Box::kGone, map);
-  EXPECT_EQ(0U, voxelsInBox(map));
-  EXPECT_EQ(0U, voxelsInBox(voxelsOf(map.edgeVoxels())));
+class SeeThrough : public testing::Test {
+ protected:
+  void scan(int count, Box box) { scanner_.scan(count, box, map_); }
+
+  OccupiedVoxelMap map_ = mapThatClearsAfter(kClearAfter);
+  Scanner scanner_;
+};
+
+TEST_F(SeeThrough, AThingTakenAwayLeavesTheMap) {
+  scan(6, Box::kThere);
+  EXPECT_LT(200U, voxelsInBox(map_));
+  EXPECT_LT(50U, voxelsInBox(voxelsOf(map_.edgeVoxels())));
+  scan(30, Box::kGone);
+  EXPECT_EQ(0U, voxelsInBox(map_));
+  EXPECT_EQ(0U, voxelsInBox(voxelsOf(map_.edgeVoxels())));
 }
 
-TEST(SeeThrough, NothingLeavesByDefault) {
-  OccupiedVoxelMap map = mapThatClearsAfter(MapConfig{}.clear_after);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  const size_t before = voxelsInBox(map);
-  scanner.scan(30, Box::kGone, map);
-  EXPECT_EQ(before, voxelsInBox(map));
-  EXPECT_EQ(0U, map.clearedVoxels());
+TEST_F(SeeThrough, NothingLeavesByDefault) {
+  map_ = mapThatClearsAfter(MapConfig{}.clear_after);
+  scan(6, Box::kThere);
+  const size_t before = voxelsInBox(map_);
+  scan(30, Box::kGone);
+  EXPECT_EQ(before, voxelsInBox(map_));
+  EXPECT_EQ(0U, map_.clearedVoxels());
 }
 
-TEST(SeeThrough, WhatStandsStillStays) {
+TEST_F(SeeThrough, WhatStandsStillStays) {
   OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
   OccupiedVoxelMap untouched = mapThatClearsAfter(0);
   for (OccupiedVoxelMap* each : {&map, &untouched}) Scanner().scan(40, Box::kThere, *each);
@@ -123,53 +128,48 @@ TEST(SeeThrough, WhatStandsStillStays) {
   EXPECT_LT(static_cast<double>(map.clearedVoxels()), 1e-3 * voxels);
 }
 
-TEST(SeeThrough, AHitStartsTheCountAnew) {
-  OccupiedVoxelMap map = mapThatClearsAfter(6);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  const size_t before = voxelsInBox(map);
+TEST_F(SeeThrough, AHitStartsTheCountAnew) {
+  map_ = mapThatClearsAfter(6);
+  scan(6, Box::kThere);
+  const size_t before = voxelsInBox(map_);
   for (int i = 0; i < 10; ++i) {
-    scanner.scan(4, Box::kGone, map);
-    scanner.scan(2, Box::kThere, map);
+    scan(4, Box::kGone);
+    scan(2, Box::kThere);
   }
-  EXPECT_LT(before * 9 / 10, voxelsInBox(map));
+  EXPECT_LT(before * 9 / 10, voxelsInBox(map_));
 }
 
-TEST(SeeThrough, AllLevelsAgree) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  scanner.scan(6, Box::kGone, map);
-  map.label();
-  ASSERT_LT(100U, map.clearedVoxels());
-  for (int l = 1; l < map.levels(); ++l) {
+TEST_F(SeeThrough, AllLevelsAgree) {
+  scan(6, Box::kThere);
+  scan(6, Box::kGone);
+  map_.label();
+  ASSERT_LT(100U, map_.clearedVoxels());
+  for (int l = 1; l < map_.levels(); ++l) {
     Voxels expected;
     if (l == 1) {
-      const GaussianLevel& g = map.gaussians(1);
+      const GaussianLevel& g = map_.gaussians(1);
       for (uint32_t slot = 0; slot < g.size(); ++slot) {
         if (g.cell(slot).hits > 0) expected.push_back(g.voxel(slot));
       }
     } else {
-      expected = voxelsOf(map.occupied(l - 1));
+      expected = voxelsOf(map_.occupied(l - 1));
       for (VoxelIndex& v : expected) v = coarser(v, 1);
     }
-    EXPECT_TRUE(sameVoxels(sorted(expected), voxelsOf(map.occupied(l)))) << "level " << l;
+    EXPECT_TRUE(sameVoxels(sorted(expected), voxelsOf(map_.occupied(l)))) << "level " << l;
   }
-  map.hitVoxels().forEach(
-      [&](const VoxelIndex& v) { EXPECT_TRUE(map.occupied(1).test(coarser(v, 1))); });
+  map_.hitVoxels().forEach(
+      [&](const VoxelIndex& v) { EXPECT_TRUE(map_.occupied(1).test(coarser(v, 1))); });
 }
 
-TEST(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  scanner.scan(5, Box::kGone, map);
-  map.label();
-  ASSERT_LT(100U, map.clearedVoxels());
-  EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map.hitVoxels())), voxelsOf(map.edgeVoxels())));
+TEST_F(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
+  scan(6, Box::kThere);
+  scan(5, Box::kGone);
+  map_.label();
+  ASSERT_LT(100U, map_.clearedVoxels());
+  EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map_.hitVoxels())), voxelsOf(map_.edgeVoxels())));
   for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
-    const GaussianLevel& g = map.gaussians(l);
-    Voxels children = voxelsOf(map.edgeVoxels());
+    const GaussianLevel& g = map_.gaussians(l);
+    Voxels children = voxelsOf(map_.edgeVoxels());
     for (VoxelIndex& v : children) v = coarser(v, l);
     for (const VoxelIndex& v : sorted(children)) {
       EXPECT_LT(0, g.cell(g.slotOf(v)).edge_children);
@@ -177,40 +177,34 @@ TEST(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
   }
 }
 
-TEST(SeeThrough, ComingAndGoingTakesNoMemory) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
+TEST_F(SeeThrough, ComingAndGoingTakesNoMemory) {
   size_t bytes = 0;
   for (int round = 0; round < 12; ++round) {
-    scanner.scan(3, Box::kThere, map);
-    scanner.scan(8, Box::kGone, map);
-    if (round == 5) bytes = map.bytes();
+    scan(3, Box::kThere);
+    scan(8, Box::kGone);
+    if (round == 5) bytes = map_.bytes();
   }
-  EXPECT_LT(2000U, map.clearedVoxels());
-  EXPECT_LE(static_cast<double>(map.bytes()), 1.02 * static_cast<double>(bytes));
+  EXPECT_LT(2000U, map_.clearedVoxels());
+  EXPECT_LE(static_cast<double>(map_.bytes()), 1.02 * static_cast<double>(bytes));
 }
 
-TEST(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
-  scanner.scan(6, Box::kThere, map);
-  scanner.scan(30, Box::kGone, map);
-  map.label();
-  map.prepareAll();
+TEST_F(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
+  scan(6, Box::kThere);
+  scan(30, Box::kGone);
+  map_.label();
+  map_.prepareAll();
   const Eigen::Vector3f front = Vector3d(kBoxMin.x(), 0, -0.1).cast<float>();
   for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
-    EXPECT_FALSE(map.gaussians(l).hasNear(front, true)) << "level " << l;
+    EXPECT_FALSE(map_.gaussians(l).hasNear(front, true)) << "level " << l;
   }
 }
 
-TEST(SeeThrough, ClearForgetsTheCount) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  Scanner scanner;
-  scanner.scan(3, Box::kThere, map);
-  scanner.scan(6, Box::kGone, map);
-  EXPECT_LT(0U, map.clearedVoxels());
-  map.clear();
-  EXPECT_EQ(0U, map.clearedVoxels());
+TEST_F(SeeThrough, ClearForgetsTheCount) {
+  scan(3, Box::kThere);
+  scan(6, Box::kGone);
+  EXPECT_LT(0U, map_.clearedVoxels());
+  map_.clear();
+  EXPECT_EQ(0U, map_.clearedVoxels());
 }
 
 }  // namespace
