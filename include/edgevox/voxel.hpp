@@ -67,6 +67,14 @@ inline uint64_t packedIndex(const VoxelIndex& v) {
   return bits(v.x) | bits(v.y) << 21 | bits(v.z) << 42;
 }
 
+/// Of packedIndex().
+inline VoxelIndex unpackedIndex(uint64_t packed) {
+  const auto index = [](uint64_t bits) {
+    return static_cast<int32_t>(bits & (2 * kIndexLimit - 1)) - kIndexLimit;
+  };
+  return {index(packed), index(packed >> 21), index(packed >> 42)};
+}
+
 /// A bijective mix of 64 bits (the finalizer of SplitMix64).
 inline uint64_t mixBits(uint64_t v) {
   v ^= v >> 30;

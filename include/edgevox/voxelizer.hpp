@@ -45,8 +45,8 @@ CloudView viewOf(const std::vector<Eigen::Vector3f>& points, double stamp, std::
 
 /// Turns clouds into occupied voxels of half the map's voxel size. Voxels of a block follow one
 /// another, blocks in order of their first point, voxels likewise, so that all later stages walk
-/// through memory. Keeps its memory from cloud to cloud. Points that are not finite or out of
-/// range are dropped and counted.
+/// through memory. Keeps its memory from cloud to cloud. Points that are not finite, out of
+/// range or kIndexLimit voxels away are dropped and counted.
 class Voxelizer {
  public:
   /// `map_voxel_size` [m]
@@ -63,8 +63,14 @@ class Voxelizer {
 
   /// Points in sequence that fell into one block; it ends where the next one begins.
   struct Run {
-    uint32_t block;
+    uint64_t corner;  ///< packedIndex() of the block's lowest voxel
     uint32_t begin;
+    uint32_t block;  ///< in blocks_
+  };
+
+  struct Block {
+    uint64_t corner;  ///< as of its runs
+    uint32_t end;     ///< number of its runs, then their end in sorted_
   };
 
   /// Of points_.
@@ -81,13 +87,16 @@ class Voxelizer {
   };
 
   class Writer;
+  template <typename Coordinate, typename Time>
+  class Reader;
 
   template <typename Coordinate>
   void readCloud(const CloudView& cloud, VoxelScan& scan);
   template <typename Coordinate, typename Time>
   void readPoints(const CloudView& cloud, VoxelScan& scan);
+  double farthest() const;  ///< [m]
   void countDropped(const Eigen::Vector3d& point, DroppedPoints& dropped) const;
-  uint32_t slotOf(const VoxelIndex& block);
+  uint32_t slotOf(uint64_t corner);
   void sortRuns();
   void collect(VoxelScan& scan);
   void sumPoints(const Span& span);
@@ -104,7 +113,7 @@ class Voxelizer {
   uint32_t run_count_ = 0;
   std::vector<Run> runs_;
   std::vector<Span> sorted_;            // by block
-  std::vector<uint32_t> block_end_;     // number of runs of a block, then the end in sorted_
+  std::vector<Block> blocks_;           // by slot in table_
   std::vector<Sum> sums_;               // of one block, a cell at most one
   uint32_t used_sums_ = 0;              // the others are 0
   std::vector<uint16_t> slot_of_cell_;  // in sums_, or kNoSum

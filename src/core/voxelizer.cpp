@@ -12,9 +12,11 @@ namespace {
 
 constexpr double kLongestSweep = 2.0;  // [s]; a time further from the stamp is a wrong unit
 
+// Pairs: numbers of two points.
 typedef double Double2 __attribute__((vector_size(16)));
+typedef float Float4 __attribute__((vector_size(16)));
 typedef float Float2 __attribute__((vector_size(8)));
-typedef int32_t Int2 __attribute__((vector_size(8)));
+using Long2 = decltype(Double2() < Double2());  // of comparisons: -1 where true
 
 template <typename T>
 T load(const uint8_t* at) {
@@ -23,42 +25,72 @@ T load(const uint8_t* at) {
   return value;
 }
 
+template <typename T>
+inline Double2 loadPair(const uint8_t* first, const uint8_t* second) {
+  typedef T Pair __attribute__((vector_size(2 * sizeof(T))));
+  return __builtin_convertvector((Pair{load<T>(first), load<T>(second)}), Double2);
+}
+
+inline bool both(const Long2& is) { return (is[0] & is[1]) != 0; }
+
+/// Two points [m].
+struct PointPair {
+  Double2 x;
+  Double2 y;
+  Double2 z;
+
+  Double2 squaredNorm() const { return x * x + (y * y + z * z); }
+};
+
 /// Where TimeField::present is false.
 struct NoTime {};
 
+/// Reads points' times, in seconds from the cloud's stamp.
 template <typename Time>
-double timeOffset(const uint8_t* point, const TimeField& field, double stamp) {
-  const double value = static_cast<double>(load<Time>(point + field.offset)) * field.unit;
-  return field.absolute ? value - stamp : value;
-}
-
-/// A point [m]; z[1] is 0.
-struct Position {
-  Double2 xy;
-  Double2 z;
-
-  double squaredNorm() const {
-    const Double2 squares = xy * xy;
-    return squares[0] + (squares[1] + z[0] * z[0]);
+class TimeReader {
+ public:
+  explicit TimeReader(const CloudView& cloud)
+      : offset_(cloud.time.offset), unit_{cloud.time.unit, cloud.time.unit} {
+    if (cloud.time.absolute) start_ = Double2{cloud.stamp, cloud.stamp};
   }
+
+  Double2 read(const uint8_t* first, const uint8_t* second) const {
+    return loadPair<Time>(first + offset_, second + offset_) * unit_ - start_;
+  }
+
+ private:
+  size_t offset_;
+  Double2 unit_;
+  Double2 start_{};
 };
 
-template <typename Coordinate>
-inline Position loadPosition(const uint8_t* at, const std::array<size_t, 3>& offset) {
-  const auto axis = [&](size_t k) { return static_cast<double>(load<Coordinate>(at + offset[k])); };
-  return {Double2{axis(0), axis(1)}, Double2{axis(2), 0.0}};
+template <>
+class TimeReader<NoTime> {
+ public:
+  explicit TimeReader(const CloudView&) {}
+  Double2 read(const uint8_t*, const uint8_t*) const { return Double2{}; }
+};
+
+inline Long2 isGoodTime(const Double2& time) {
+  constexpr Double2 kLongest = {kLongestSweep, kLongestSweep};
+  return (time >= -kLongest) & (time <= kLongest);
 }
 
-/// As floorToInt().
-inline Int2 floorToInt2(const Double2& v) {
-  const Int2 truncated = __builtin_convertvector(v, Int2);
-  const auto above = v < __builtin_convertvector(truncated, Double2);  // -1 where true
-  return truncated + __builtin_convertvector(above, Int2);
-}
+/// The largest integer not above a number; the low 21 bits of `bits` are it + kIndexLimit.
+struct Floor {
+  Double2 value;
+  Long2 bits;
+};
 
-/// From a voxel's lower corner [m].
-inline Float2 offsetFrom(const Int2& index, const Double2& at, const Double2& voxel_size) {
-  return __builtin_convertvector(at - __builtin_convertvector(index, Double2) * voxel_size, Float2);
+/// For numbers in [-kIndexLimit, kIndexLimit): doubles of 2^52 and more have no bits behind the
+/// point, and their lowest bits are those of an integer.
+inline Floor floorOf(const Double2& v) {
+  constexpr Double2 kWhole = {0x1p52 + kIndexLimit, 0x1p52 + kIndexLimit};
+  constexpr Double2 kOne = {1.0, 1.0};
+  const Double2 sum = v + kWhole;
+  const Double2 nearest = sum - kWhole;
+  const Long2 above = nearest > v;
+  return {nearest - (above ? kOne : Double2{}), reinterpret_cast<Long2>(sum) + above};
 }
 
 /// From the sum of offsets from the voxel's lower corner and of times to their means.
@@ -88,55 +120,130 @@ CloudView viewOf(const std::vector<Eigen::Vector3f>& points, double stamp, std::
 class Voxelizer::Writer {
  public:
   explicit Writer(Voxelizer& to)
-      : to_(to),
-        points_(to.points_.data()),
+      : points_(to.points_.data()),
         cells_(to.cells_.data()),
         runs_(to.runs_.data()),
         size_{to.voxel_size_, to.voxel_size_},
         inverse_size_{1.0 / to.voxel_size_, 1.0 / to.voxel_size_} {}
 
-  void add(const Position& at, float time) {
-    const Int2 xy = floorToInt2(at.xy * inverse_size_);
-    const Int2 z = floorToInt2(at.z * inverse_size_);
-    const Float2 offset_xy = offsetFrom(xy, at.xy, size_);
-    const Float2 offset_z = offsetFrom(z, at.z, size_);
-    float* point = points_[count_].data();
-    std::memcpy(point, &offset_xy, sizeof(offset_xy));
-    point[2] = offset_z[0];
-    point[3] = time;
-    cells_[count_] = static_cast<uint16_t>(Layout::cell({xy[0], xy[1], z[0]}));
-    const auto block_xy = bitsOf(xy >> Layout::kShift);
-    const int32_t block_z = z[0] >> Layout::kShift;
-    if (block_xy != block_xy_ || block_z != block_z_ || count_ == 0) {
-      const uint32_t block = to_.slotOf(Layout::block({xy[0], xy[1], z[0]}));
-      ++to_.block_end_[block];
-      runs_[run_count_++] = {block, count_};
-      block_xy_ = block_xy;
-      block_z_ = block_z;
-    }
+  /// The first `count` of two.
+  void add(const PointPair& at, const Float2& time, int count) {
+    const Floor x = floorOf(at.x * inverse_size_);
+    const Floor y = floorOf(at.y * inverse_size_);
+    const Floor z = floorOf(at.z * inverse_size_);
+    const Long2 voxel = (x.bits & kIndexBits) | y.bits << 21 | z.bits << 42;
+    const Float2 dx = __builtin_convertvector(at.x - x.value * size_, Float2);
+    const Float2 dy = __builtin_convertvector(at.y - y.value * size_, Float2);
+    const Float2 dz = __builtin_convertvector(at.z - z.value * size_, Float2);
+    const auto xy = reinterpret_cast<Double2>(Float4{dx[0], dy[0], dx[1], dy[1]});
+    const auto zt = reinterpret_cast<Double2>(Float4{dz[0], time[0], dz[1], time[1]});
+    add(Double2{xy[0], zt[0]}, voxel[0]);
+    if (count == 2) add(Double2{xy[1], zt[1]}, voxel[1]);
+  }
+
+  uint32_t count() const { return static_cast<uint32_t>(count_); }
+  uint32_t runCount() const { return static_cast<uint32_t>(run_count_); }
+
+ private:
+  static constexpr int64_t kIndexBits = 2 * kIndexLimit - 1;
+  static constexpr uint64_t kCellBits = 0xfULL | 0xfULL << 21 | 0xfULL << 42;
+
+  /// A point as in points_, by the bits, and packedIndex() of its voxel. Without branches on the
+  /// data: the next run overwrites the one that has not begun.
+  void add(const Double2& point, int64_t packed_voxel) {
+    const auto voxel = static_cast<uint64_t>(packed_voxel);
+    const uint64_t cell = voxel & kCellBits;
+    const uint64_t corner = voxel & ~kCellBits;
+    std::memcpy(points_[count_].data(), &point, sizeof(point));
+    cells_[count_] = static_cast<uint16_t>(cell | cell >> 17 | cell >> 34);
+    runs_[run_count_].corner = corner;
+    runs_[run_count_].begin = static_cast<uint32_t>(count_);
+    run_count_ += corner != last_corner_ ? 1 : 0;
+    last_corner_ = corner;
     ++count_;
   }
 
-  uint32_t count() const { return count_; }
-  uint32_t runCount() const { return run_count_; }
-
- private:
-  static uint64_t bitsOf(const Int2& v) {
-    uint64_t bits;
-    std::memcpy(&bits, &v, sizeof(bits));
-    return bits;
-  }
-
-  Voxelizer& to_;
   Eigen::Vector4f* points_;
   uint16_t* cells_;
   Run* runs_;
   Double2 size_;
   Double2 inverse_size_;
-  uint64_t block_xy_ = 0;
-  int32_t block_z_ = 0;
-  uint32_t count_ = 0;
-  uint32_t run_count_ = 0;
+  uint64_t last_corner_ = ~uint64_t{0};  // none has all bits
+  size_t count_ = 0;
+  size_t run_count_ = 0;
+};
+
+/// Reads two points at a time, and one by one those that are dropped or have a bad time.
+template <typename Coordinate, typename Time>
+class Voxelizer::Reader {
+ public:
+  Reader(Voxelizer& to, const CloudView& cloud, DroppedPoints& dropped)
+      : to_(to), out_(to), times_(cloud), offset_(cloud.xyz_offset), dropped_(dropped) {
+    const double near = to.config_.min_range * to.config_.min_range;
+    const double far = to.farthest() * to.farthest();
+    near_ = Double2{near, near};
+    far_ = Double2{far, far};
+  }
+
+  void read(const CloudView& cloud) {
+    const size_t step = cloud.point_step;
+    for (size_t row = 0; row < cloud.height; ++row) {
+      const uint8_t* at = cloud.data + row * cloud.row_step;
+      const uint8_t* end = at + cloud.width / 2 * 2 * step;
+      for (; at != end; at += 2 * step) readTwo(at, at + step);
+      if (cloud.width % 2 != 0) readOne(at);
+    }
+    to_.point_count_ = out_.count();
+    to_.run_count_ = out_.runCount();
+  }
+
+ private:
+  PointPair points(const uint8_t* first, const uint8_t* second) const {
+    const auto axis = [&](size_t k) {
+      return loadPair<Coordinate>(first + offset_[k], second + offset_[k]);
+    };
+    return {axis(0), axis(1), axis(2)};
+  }
+
+  Long2 inRange(const PointPair& at) const {
+    const Double2 range = at.squaredNorm();
+    return (range >= near_) & (range <= far_);  // NaN fails both
+  }
+
+  void readTwo(const uint8_t* first, const uint8_t* second) {
+    const PointPair at = points(first, second);
+    const Double2 time = times_.read(first, second);
+    if (both(inRange(at) & isGoodTime(time))) {
+      const Float2 rounded = __builtin_convertvector(time, Float2);
+      out_.add(at, rounded, 2);
+      time_ = rounded[1];
+    } else {
+      readOne(first);
+      readOne(second);
+    }
+  }
+
+  void readOne(const uint8_t* point) {
+    const PointPair at = points(point, point);
+    if (!both(inRange(at))) {
+      to_.countDropped({at.x[0], at.y[0], at.z[0]}, dropped_);
+      return;
+    }
+    const Double2 time = times_.read(point, point);
+    const bool good = both(isGoodTime(time));
+    time_ = good ? static_cast<float>(time[0]) : time_;
+    dropped_.bad_time += good ? 0 : 1;
+    out_.add(at, Float2{time_, time_}, 1);
+  }
+
+  Voxelizer& to_;
+  Writer out_;
+  TimeReader<Time> times_;
+  std::array<size_t, 3> offset_;
+  DroppedPoints& dropped_;
+  Double2 near_;
+  Double2 far_;
+  float time_ = 0.0F;  // of the last point
 };
 
 Voxelizer::Voxelizer(const VoxelizerConfig& config, double map_voxel_size)
@@ -154,7 +261,7 @@ VoxelScan Voxelizer::voxelize(const CloudView& cloud) {
   scan.voxel_size = voxel_size_;
   scan.points_read = cloud.width * cloud.height;
   table_.clear();
-  block_end_.clear();
+  blocks_.clear();
   points_.resize(scan.points_read);
   cells_.resize(scan.points_read);
   runs_.resize(scan.points_read + 1);
@@ -181,32 +288,11 @@ void Voxelizer::readCloud(const CloudView& cloud, VoxelScan& scan) {
 
 template <typename Coordinate, typename Time>
 void Voxelizer::readPoints(const CloudView& cloud, VoxelScan& scan) {
-  const double near = config_.min_range * config_.min_range;
-  const double far = config_.max_range * config_.max_range;
-  const CloudView view = cloud;  // a copy stays in registers whatever is written
-  float time = 0.0F;
-  Writer out(*this);
-  for (size_t row = 0; row < view.height; ++row) {
-    const uint8_t* at = view.data + row * view.row_step;
-    const uint8_t* end = at + view.width * view.point_step;
-    for (; at != end; at += view.point_step) {
-      const auto position = loadPosition<Coordinate>(at, view.xyz_offset);
-      const double range = position.squaredNorm();
-      if (!(range >= near && range <= far)) {  // NaN fails both
-        countDropped({position.xy[0], position.xy[1], position.z[0]}, scan.dropped);
-        continue;
-      }
-      if constexpr (!std::is_same_v<Time, NoTime>) {
-        const double offset = timeOffset<Time>(at, view.time, view.stamp);
-        const bool good = std::abs(offset) <= kLongestSweep;
-        time = good ? static_cast<float>(offset) : time;
-        scan.dropped.bad_time += good ? 0 : 1;
-      }
-      out.add(position, time);
-    }
-  }
-  point_count_ = out.count();
-  run_count_ = out.runCount();
+  Reader<Coordinate, Time>(*this, cloud, scan.dropped).read(cloud);
+}
+
+double Voxelizer::farthest() const {
+  return std::min(config_.max_range, (kIndexLimit - 1) * voxel_size_);
 }
 
 void Voxelizer::countDropped(const Eigen::Vector3d& point, DroppedPoints& dropped) const {
@@ -221,27 +307,31 @@ void Voxelizer::countDropped(const Eigen::Vector3d& point, DroppedPoints& droppe
 
 /// Blocks of one cloud rarely share the low bits of their indices, so that a look at the slot found
 /// last for these bits mostly saves the hash.
-uint32_t Voxelizer::slotOf(const VoxelIndex& block) {
-  uint32_t& hint =
-      slot_hint_[static_cast<size_t>((block.z & 7) << 10 | (block.y & 31) << 5 | (block.x & 31))];
-  if (hint >= table_.size() || table_.block(hint) != block) {
-    hint = static_cast<uint32_t>(table_.findOrInsert(block));
-    if (hint == block_end_.size()) block_end_.push_back(0);
+uint32_t Voxelizer::slotOf(uint64_t corner) {
+  const uint64_t bits = (corner >> 4 & 31) | (corner >> 25 & 31) << 5 | (corner >> 46 & 7) << 10;
+  uint32_t& hint = slot_hint_[bits];
+  if (hint >= blocks_.size() || blocks_[hint].corner != corner) {
+    hint = static_cast<uint32_t>(table_.findOrInsert(Layout::block(unpackedIndex(corner))));
+    if (hint == blocks_.size()) blocks_.push_back({corner, 0});
   }
   return hint;
 }
 
 void Voxelizer::sortRuns() {
+  for (uint32_t i = 0; i < run_count_; ++i) {
+    runs_[i].block = slotOf(runs_[i].corner);
+    ++blocks_[runs_[i].block].end;
+  }
   uint32_t begin = 0;
-  for (uint32_t& end : block_end_) {
-    const uint32_t count = end;
-    end = begin;
+  for (Block& block : blocks_) {
+    const uint32_t count = block.end;
+    block.end = begin;
     begin += count;
   }
   sorted_.resize(run_count_);
   runs_[run_count_].begin = point_count_;
   for (uint32_t i = 0; i < run_count_; ++i) {
-    sorted_[block_end_[runs_[i].block]++] = {runs_[i].begin, runs_[i + 1].begin};
+    sorted_[blocks_[runs_[i].block].end++] = {runs_[i].begin, runs_[i + 1].begin};
   }
 }
 
@@ -249,8 +339,8 @@ void Voxelizer::collect(VoxelScan& scan) {
   constexpr size_t kAhead = 16;  // spans whose points are fetched before they are summed
   scan.voxels.reserve(std::max<size_t>(point_count_ / 2, last_voxels_ + last_voxels_ / 8));
   size_t i = 0;
-  for (size_t block = 0; block < block_end_.size(); ++block) {
-    for (; i < block_end_[block]; ++i) {
+  for (size_t block = 0; block < blocks_.size(); ++block) {
+    for (; i < blocks_[block].end; ++i) {
       __builtin_prefetch(&points_[sorted_[std::min(i + kAhead, sorted_.size() - 1)].begin]);
       sumPoints(sorted_[i]);
     }

@@ -52,6 +52,7 @@ TEST(VoxelIndices, PackedIndexIsUniqueAtTheBordersOfTheRange) {
       for (const int32_t x : extremes) {
         EXPECT_TRUE(inGridRange({x, y, z}));
         packed.insert(packedIndex({x, y, z}));
+        EXPECT_EQ((VoxelIndex{x, y, z}), unpackedIndex(packedIndex({x, y, z})));
       }
     }
   }

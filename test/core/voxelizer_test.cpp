@@ -320,6 +320,69 @@ TEST(Voxelizer, NegativeCoordinatesAreFloored) {
   EXPECT_EQ((VoxelIndex{-1, -20, -21}), scan.voxels[0].index);
 }
 
+/// Floats beside the borders of voxels, on both sides of 0.
+std::vector<TimedPoint> pointsAtBorders(uint32_t seed, size_t count, double size) {
+  Random random(seed);
+  std::vector<TimedPoint> points(count);
+  for (TimedPoint& point : points) {
+    for (double& coordinate : point.position) {
+      auto at = static_cast<float>(std::round(random.uniform(-600.0, 600.0)) * size);
+      const int steps = static_cast<int>(random.uniform(0.0, 3.0));
+      const float towards = random.uniform(-1.0, 1.0) < 0.0 ? -1e9F : 1e9F;
+      for (int i = 0; i < steps; ++i) at = std::nextafter(at, towards);
+      coordinate = static_cast<double>(at);
+    }
+    if (point.position.norm() < 0.6) point.position.x() = 1.0;
+  }
+  return points;
+}
+
+TEST(Voxelizer, PointsAtBordersLandInTheirVoxels) {
+  for (const double map_voxel : {0.1, 0.07, 0.3, 1.0 / 3.0}) {
+    const auto points = pointsAtBorders(16, 100000, map_voxel / 2);
+    const RawCloud cloud = rawCloud(points, {});
+    const VoxelScan scan = Voxelizer({0.5, 1000.0}, map_voxel).voxelize(cloud.view);
+    const auto expected = bruteForce(points, scan.voxel_size);
+    ASSERT_EQ(expected.size(), scan.voxels.size());
+    for (const ScanVoxel& voxel : scan.voxels) {
+      const auto entry = expected.find(voxel.index);
+      ASSERT_TRUE(entry != expected.end());
+      ASSERT_EQ(entry->second.count, voxel.point_count);
+    }
+  }
+}
+
+TEST(Voxelizer, TheLeastBelowZeroIsBelowZero) {
+  const double least = static_cast<double>(std::numeric_limits<float>::denorm_min());
+  const VoxelScan scan = voxelize(rawCloud({{{-least, 1, -0.0}}, {{1, -1e-20, least}}}, {}));
+  ASSERT_EQ(2U, scan.voxels.size());
+  EXPECT_EQ((VoxelIndex{-1, 20, 0}), scan.voxels[0].index);
+  EXPECT_EQ((VoxelIndex{20, -1, 0}), scan.voxels[1].index);
+}
+
+TEST(Voxelizer, DropsWhatNoGridHolds) {
+  const RawCloud cloud = rawCloud({{{-5242.5, 0, 0}}, {{0, 5242.5, 0}}, {{0, 0, -5243.5}}}, {});
+  const VoxelScan scan = Voxelizer({0.5, 10000.0}, 0.01).voxelize(cloud.view);  // 2^20 = 5243 m
+  EXPECT_EQ(1U, scan.dropped.too_far);
+  ASSERT_EQ(2U, scan.voxels.size());
+  EXPECT_EQ((VoxelIndex{-1048500, 0, 0}), scan.voxels[0].index);
+  EXPECT_EQ((VoxelIndex{0, 1048500, 0}), scan.voxels[1].index);
+}
+
+TEST(Voxelizer, DroppedPointsAmongOthersChangeNothing) {
+  const auto points = randomPoints(17, 3000);
+  Random random(18);
+  std::vector<TimedPoint> mixed;
+  for (const TimedPoint& point : points) {
+    while (random.uniform(0.0, 1.0) < 0.3) mixed.push_back({Eigen::Vector3d::Zero(), 0.05});
+    mixed.push_back(point);
+  }
+  const RawLayout layout = withTime(Scalar::kFloat32, 1.0);
+  const VoxelScan scan = voxelize(rawCloud(mixed, layout));
+  EXPECT_EQ(mixed.size() - points.size(), scan.dropped.too_near);
+  expectSameVoxels(voxelize(rawCloud(points, layout)), scan);
+}
+
 TEST(Voxelizer, ASecondCloudIsVoxelizedAsByANewVoxelizer) {
   const auto layout = withTime(Scalar::kFloat32, 1.0);
   const RawCloud first = rawCloud(randomPoints(12, 5000), layout);
