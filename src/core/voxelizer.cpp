@@ -31,6 +31,11 @@ inline Double2 loadPair(const uint8_t* first, const uint8_t* second) {
   return __builtin_convertvector((Pair{load<T>(first), load<T>(second)}), Double2);
 }
 
+template <typename T>
+inline Double2 pairOf(T first, T second) {
+  return Double2{static_cast<double>(first), static_cast<double>(second)};
+}
+
 inline bool both(const Long2& is) { return (is[0] & is[1]) != 0; }
 
 /// Two points [m].
@@ -97,9 +102,12 @@ inline Floor floorOf(const Double2& v) {
 inline void setMeans(const Eigen::Vector4f& sum, double voxel_size, ScanVoxel& voxel) {
   const Eigen::Vector4f mean = sum * (1.0F / static_cast<float>(voxel.point_count));
   const VoxelIndex& index = voxel.index;
-  const Eigen::Vector3d corner = Eigen::Vector3d(index.x, index.y, index.z) * voxel_size;
-  voxel.centroid = (corner + mean.head<3>().cast<double>()).cast<float>();
-  voxel.time_offset = mean[3];
+  const Double2 xy = pairOf(index.x, index.y) * voxel_size;
+  const Double2 z = pairOf(index.z, 0) * voxel_size;
+  const Float2 centroid_xy = __builtin_convertvector(xy + pairOf(mean[0], mean[1]), Float2);
+  const Float2 z_and_time = __builtin_convertvector(z + pairOf(mean[2], mean[3]), Float2);
+  voxel.centroid = {centroid_xy[0], centroid_xy[1], z_and_time[0]};
+  voxel.time_offset = z_and_time[1];
 }
 
 }  // namespace
@@ -371,14 +379,15 @@ void Voxelizer::sumPoints(const Span& span) {
 }
 
 void Voxelizer::finishBlock(const VoxelIndex& block, VoxelScan& scan) {
-  constexpr int kRow = 16;
+  constexpr uint32_t kRow = 16;
   const double voxel_size = voxel_size_;
   uint16_t* slot_of_cell = slot_of_cell_.data();
   Sum* end = sums_.data() + used_sums_;
   for (Sum* sum = sums_.data(); sum != end; ++sum) {
-    const auto cell = static_cast<int>(sum->cell);
+    const uint32_t cell = sum->cell;
     ScanVoxel& voxel = scan.voxels.emplace_back();
-    voxel.index = Layout::voxel(block, cell / kRow, cell % kRow);
+    voxel.index =
+        Layout::voxel(block, static_cast<int>(cell / kRow), static_cast<int>(cell % kRow));
     voxel.point_count = sum->count;
     setMeans(sum->sum, voxel_size, voxel);
     slot_of_cell[cell] = kNoSum;
