@@ -50,7 +50,7 @@ struct MapConfig {
   int min_hits = 2;     ///< scans that must have hit a voxel for it to count as occupied
   int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
   int label_every = 5;  ///< scans between two labellings
-  int clear_after = 0;  ///< scans in a row that see through a voxel before it leaves, 0: off
+  int clear_after = 0;  ///< scans that see through a voxel unhit before it leaves, 0: off
 };
 
 struct MatcherConfig {

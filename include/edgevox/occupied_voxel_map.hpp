@@ -68,15 +68,22 @@ class GaussianLevel {
 
   double voxelSize() const { return voxel_size_; }
 
-  /// Of the voxel and its six neighbours the surface nearest to `point` by its information, of
-  /// those that face `to_sensor` (a unit vector) and are selected or, for `all`, occupied. Its
-  /// squared Mahalanobis distance goes to `distance`. Null if none is there. Gaussians of voxels
-  /// that are not selected are as of the last updateAll().
-  const VoxelGaussian* nearest(const Eigen::Vector3f& point, const Eigen::Vector3f& to_sensor,
-                               bool all, float& distance) const;
+  /// A voxel and its six neighbours, as far as they are selected or, for `all`, occupied.
+  struct Around {
+    VoxelIndex voxel;
+    uint32_t count = 0;
+    std::array<uint32_t, 7> slots{};
+  };
+  Around around(const VoxelIndex& voxel, bool all) const;
+  VoxelIndex voxelOf(const Eigen::Vector3f& point) const {
+    return voxelAt(point, 1.0 / voxel_size_);
+  }
 
-  /// Whether nearest() would find a surface there, were it not for the side it faces.
-  bool hasNear(const Eigen::Vector3f& point, bool all) const;
+  /// Of the surfaces in these voxels that face `to_sensor` (a unit vector) the one nearest to
+  /// `point` by its information. Its squared Mahalanobis distance goes to `distance`. Null if there
+  /// is none. Gaussians of voxels that are not selected are as of the last updateAll().
+  const VoxelGaussian* nearest(const Around& around, const Eigen::Vector3f& point,
+                               const Eigen::Vector3f& to_sensor, float& distance) const;
 
   /// The slot of a voxel's cell, which is made if there is none.
   uint32_t slotFor(const VoxelIndex& v);
@@ -84,9 +91,9 @@ class GaussianLevel {
   /// if it is the scan's first there.
   bool add(uint32_t slot, const Eigen::Vector3d& centroid, const Eigen::Vector3f& to_sensor,
            uint32_t scan);
-  /// Takes points out of a voxel, about its centre; it must keep some of them. A voxel with two
-  /// sides stays as it is: of which the points were is not known.
-  void subtract(uint32_t slot, const Moments& points);
+  /// Replaces the points of a voxel without a twin, about its centre; from where they were seen
+  /// stays.
+  void setMoments(uint32_t slot, const Moments& moments);
   /// Takes an occupied voxel out.
   void erase(const VoxelIndex& v);
   /// Computes the Gaussians of the selected cells that have changed.
@@ -128,11 +135,6 @@ class GaussianLevel {
   using Layout = BlockLayout<8>;
   using Bits = std::array<uint8_t, Layout::kRows>;
 
-  template <typename Visit>
-  bool anyNear(const Eigen::Vector3f& point, const Visit& visit) const;
-  bool isCandidate(size_t block, const VoxelIndex& v, bool all) const;
-  const VoxelGaussian* findInBlock(size_t block, const VoxelIndex& v,
-                                   const Eigen::Vector3f& to_sensor, bool all) const;
   uint32_t newCell(const VoxelIndex& v);
   uint32_t newTwin(const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
@@ -209,7 +211,7 @@ class OccupiedVoxelMap {
   Eigen::Vector3d centroid(const VoxelIndex& v) const;
 
   size_t ignoredCentroids() const { return ignored_; }
-  /// How often a voxel of level 0 has left, because later scans saw through it.
+  /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
   /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
   size_t packedBytes() const;
@@ -242,6 +244,7 @@ class OccupiedVoxelMap {
   bool isHitBeside(const VoxelIndex& v) const;
   void remove(const VoxelIndex& v);
   void subtractMoments(const VoxelIndex& v);
+  void sumChildren(int level, const VoxelIndex& v);
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
   /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
   void countEdge(int level, const VoxelIndex& v, int change);
@@ -263,7 +266,7 @@ class OccupiedVoxelMap {
   BitGrid<16> hit_voxels_;
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
   BitGrid<16> edge_voxels_;
-  BitGrid<16> changed_;  // hit voxels since the last labelling
+  BitGrid<16> changed_;  // of hit_voxels_, since the last labelling
   std::vector<GaussianLevel> gaussians_;
   std::array<std::vector<uint32_t>, kGaussianLevels> touched_;  // slots by level - 1, repeated
   std::array<double, kGaussianLevels> random_share_{};          // of the voxels of a level

@@ -55,8 +55,8 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"map/label_every", &c.map.label_every, 1, 100, "",
        "scans between two labellings of the map"},
       {"map/clear_after", &c.map.clear_after, 0, 1000, "",
-       "scans in a row that must see through an occupied voxel before it leaves the map; 0: none "
-       "leaves"},
+       "scans that must see through an occupied voxel, without a hit in between, before it leaves "
+       "the map; 0: none leaves"},
       {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
        "'published' is hill climbing alone, for comparison"},
       {"matcher/coarsest_voxel", &c.matcher.coarsest_voxel, 0.1, 100, "m",

@@ -149,59 +149,44 @@ Moments Moments::about(const Eigen::Vector3d& origin) const {
           outer - cross - cross.transpose() + count * origin * origin.transpose()};
 }
 
-/// Calls visit(block, voxel) for the voxel of `point` and its six neighbours, where there is a
-/// block, until one returns true.
-template <typename Visit>
-bool GaussianLevel::anyNear(const Eigen::Vector3f& point, const Visit& visit) const {
+GaussianLevel::Around GaussianLevel::around(const VoxelIndex& voxel, bool all) const {
   static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  const VoxelIndex centre = voxelAt(point, 1.0 / voxel_size_);
-  const VoxelIndex centre_block = Layout::block(centre);
-  const int32_t block = grid_.findBlock(centre_block);
+  Around around;
+  around.voxel = voxel;
+  const VoxelIndex home = Layout::block(voxel);
+  const int32_t home_block = grid_.findBlock(home);
   for (const auto& offset : kOffsets) {
-    const VoxelIndex v{centre.x + offset[0], centre.y + offset[1], centre.z + offset[2]};
-    const VoxelIndex v_block = Layout::block(v);
-    const int32_t found = v_block == centre_block ? block : grid_.findBlock(v_block);
-    if (found != BlockTable::kNone && visit(static_cast<size_t>(found), v)) return true;
+    const VoxelIndex v{voxel.x + offset[0], voxel.y + offset[1], voxel.z + offset[2]};
+    const VoxelIndex its_block = Layout::block(v);
+    const int32_t found = its_block == home ? home_block : grid_.findBlock(its_block);
+    if (found == BlockTable::kNone) continue;
+    const auto block = static_cast<size_t>(found);
+    const auto& bits = all ? grid_.block(block).occupied : selected_[block];
+    if (((bits[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1) == 0) continue;
+    around.slots[around.count++] = grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))];
   }
-  return false;
+  return around;
 }
 
-bool GaussianLevel::isCandidate(size_t block, const VoxelIndex& v, bool all) const {
-  const auto row = static_cast<size_t>(Layout::row(v));
-  const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-  return ((bits[row] >> Layout::column(v)) & 1) != 0;
-}
-
-bool GaussianLevel::hasNear(const Eigen::Vector3f& point, bool all) const {
-  return anyNear(point,
-                 [&](size_t block, const VoxelIndex& v) { return isCandidate(block, v, all); });
-}
-
-const VoxelGaussian* GaussianLevel::nearest(const Eigen::Vector3f& point,
-                                            const Eigen::Vector3f& to_sensor, bool all,
+const VoxelGaussian* GaussianLevel::nearest(const Around& around, const Eigen::Vector3f& point,
+                                            const Eigen::Vector3f& to_sensor,
                                             float& distance) const {
   const VoxelGaussian* best = nullptr;
   distance = std::numeric_limits<float>::infinity();
-  anyNear(point, [&](size_t block, const VoxelIndex& v) {
-    const VoxelGaussian* candidate = findInBlock(block, v, to_sensor, all);
-    if (candidate == nullptr) return false;
+  for (uint32_t i = 0; i < around.count; ++i) {
+    const VoxelGaussian* candidate = &gaussians_[around.slots[i]];
+    if (candidate->facesAway(to_sensor)) {
+      if (candidate->twin == VoxelGaussian::kNoTwin) continue;
+      candidate = &gaussians_[candidate->twin];
+    }
     const float d = squaredDistance(*candidate, point);
     if (d < distance) {
       distance = d;
       best = candidate;
     }
-    return false;
-  });
+  }
   return best;
-}
-
-const VoxelGaussian* GaussianLevel::findInBlock(size_t block, const VoxelIndex& v,
-                                                const Eigen::Vector3f& to_sensor, bool all) const {
-  if (!isCandidate(block, v, all)) return nullptr;
-  const auto& gaussian = gaussians_[grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))]];
-  if (!gaussian.facesAway(to_sensor)) return &gaussian;
-  return gaussian.twin == VoxelGaussian::kNoTwin ? nullptr : &gaussians_[gaussian.twin];
 }
 
 uint32_t GaussianLevel::slotFor(const VoxelIndex& v) {
@@ -269,18 +254,17 @@ void GaussianLevel::setStale(uint32_t slot) {
   stale_.push_back(slot);
 }
 
-void GaussianLevel::subtract(uint32_t slot, const Moments& points) {
-  if (hasTwin(slot)) return;
+void GaussianLevel::setMoments(uint32_t slot, const Moments& moments) {
   Cell& cell = cells_[slot];
-  const auto kept = static_cast<float>(1.0 - points.count / cell.count);
+  const auto kept = static_cast<float>(moments.count / cell.count);
   for (size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<Eigen::Index>(i);
-    cell.sum[i] -= static_cast<float>(points.sum[a]);
-    cell.outer[i] -= static_cast<float>(points.outer(a, a));
-    cell.outer[i + 3] -= static_cast<float>(points.outer(a, (a + 1) % 3));
+    cell.sum[i] = static_cast<float>(moments.sum[a]);
+    cell.outer[i] = static_cast<float>(moments.outer(a, a));
+    cell.outer[i + 3] = static_cast<float>(moments.outer(a, (a + 1) % 3));
     cell.view[i] *= kept;
   }
-  cell.count -= static_cast<uint32_t>(points.count);
+  cell.count = static_cast<uint32_t>(moments.count);
   setStale(slot);
 }
 

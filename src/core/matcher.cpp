@@ -130,27 +130,39 @@ double largestStep(const Pose& from, const Pose& to, double range) {
   return std::max(change.translation().norm(), rotationAngle(change) * range);
 }
 
+/// A point of a sample and the voxels that it is matched to.
+struct NearPoint {
+  Eigen::Vector3d point;
+  GaussianLevel::Around around;
+};
+
 /// The first `wanted` points of the sample that have a voxel to match at this pose.
-ScanSample pointsNear(const GaussianLevel& level, const ScanSample& sample, size_t wanted,
-                      const Pose& pose, bool all_voxels) {
-  ScanSample near;
+std::vector<NearPoint> pointsNear(const GaussianLevel& level, const ScanSample& sample,
+                                  size_t wanted, const Pose& pose, bool all_voxels) {
+  std::vector<NearPoint> near;
   near.reserve(wanted);
   for (const Eigen::Vector3d& point : sample) {
     if (near.size() == wanted) break;
-    if (level.hasNear((pose * point).cast<float>(), all_voxels)) near.push_back(point);
+    const Eigen::Vector3f in_map = (pose * point).cast<float>();
+    const auto around = level.around(level.voxelOf(in_map), all_voxels);
+    if (around.count > 0) near.push_back({point, around});
   }
   return near;
 }
 
-NormalEquations linearise(const GaussianLevel& level, const ScanSample& sample, const Pose& pose,
-                          bool all_voxels) {
+/// Points that have moved to another voxel are given what is around that.
+NormalEquations linearise(const GaussianLevel& level, std::vector<NearPoint>& near,
+                          const Pose& pose, bool all_voxels) {
   NormalEquations equations;
-  for (const Eigen::Vector3d& scan_point : sample) {
-    const Eigen::Vector3d lever = pose.linear() * scan_point;
+  for (NearPoint& of_scan : near) {
+    const Eigen::Vector3d lever = pose.linear() * of_scan.point;
     const Eigen::Vector3d point = pose.translation() + lever;
+    const Eigen::Vector3f point_f = point.cast<float>();
+    const VoxelIndex voxel = level.voxelOf(point_f);
+    if (voxel != of_scan.around.voxel) of_scan.around = level.around(voxel, all_voxels);
     float distance = 0;
     const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
-    const VoxelGaussian* g = level.nearest(point.cast<float>(), to_sensor, all_voxels, distance);
+    const VoxelGaussian* g = level.nearest(of_scan.around, point_f, to_sensor, distance);
     if (g == nullptr) continue;
     const double robust = kRobustScale / (kRobustScale + distance);
     const auto& m = g->information;
@@ -292,7 +304,7 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
   if (wanted == 0) return result;
   const double range = medianRange(sample, wanted);
   for (int level = coarsest; level >= 1; --level) {
-    ScanSample near;
+    std::vector<NearPoint> near;
     Pose near_pose;
     for (int step = 0; step < kRefineSteps[level]; ++step) {
       if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {

@@ -41,6 +41,15 @@ size_t blocksOfEight(const BitGrid<16>& grid) {
   return count;
 }
 
+size_t blocksWithBits(const BitGrid<8>& grid) {
+  size_t count = 0;
+  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
+    const auto& rows = grid.block(slot);
+    count += std::any_of(rows.begin(), rows.end(), [](uint8_t row) { return row != 0; }) ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 
 OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, const MapConfig& map,
@@ -280,7 +289,7 @@ Eigen::Vector3d OccupiedVoxelMap::centroidOf(uint32_t slot, const VoxelIndex& v)
 size_t OccupiedVoxelMap::packedBytes() const {
   const bool all = config_.representation == Representation::kAll;
   size_t bytes = blocksOfEight(all ? hit_voxels_ : edge_voxels_) * kBitBlockBytes;
-  for (const BitGrid<8>& bits : occupied_) bytes += bits.blockCount() * kBitBlockBytes;
+  for (const BitGrid<8>& bits : occupied_) bytes += blocksWithBits(bits) * kBitBlockBytes;
   for (const GaussianLevel& g : gaussians_) {
     bytes += g.blocksWithSelection() * kBitBlockBytes + g.selectedGaussians() * kGaussianBytes;
   }

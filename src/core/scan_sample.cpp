@@ -25,8 +25,9 @@ void addSpread(const VoxelScan& scan, int levels, size_t count, std::vector<bool
     if (!taken[i] && covered.set(coarser(index, levels))) ranked.emplace_back(voxelHash(index), i);
   }
   const size_t wanted = std::min(count - sample.size(), ranked.size());
-  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(wanted),
-                    ranked.end());
+  const auto last = ranked.begin() + static_cast<std::ptrdiff_t>(wanted);
+  if (last != ranked.end()) std::nth_element(ranked.begin(), last, ranked.end());
+  std::sort(ranked.begin(), last);
   for (size_t i = 0; i < wanted; ++i) {
     sample.push_back(ranked[i].second);
     taken[ranked[i].second] = true;

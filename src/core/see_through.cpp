@@ -68,7 +68,6 @@ void OccupiedVoxelMap::clearSeenThrough(const std::vector<Eigen::Vector3d>& cent
                   [&](const VoxelIndex& parent) { lookThrough(sight, parent); });
   }
   for (const VoxelIndex& v : cleared_) remove(v);
-  cleared_count_ += cleared_.size();
 }
 
 void OccupiedVoxelMap::lookThrough(const Sight& sight, const VoxelIndex& parent) {
@@ -107,9 +106,13 @@ bool OccupiedVoxelMap::isHitBeside(const VoxelIndex& v) const {
 }
 
 void OccupiedVoxelMap::remove(const VoxelIndex& v) {
-  if (hit_voxels_.reset(v)) changed_.set(v);
+  if (hit_voxels_.reset(v)) {
+    changed_.set(v);
+    ++cleared_count_;
+  }
   edge_candidates_.reset(v);
   if (edge_voxels_.reset(v)) countEdge(1, coarser(v, 1), -1);
+  for (int l = 1; l <= kGaussianLevels; ++l) touch(l, gaussians(l).slotOf(coarser(v, l)));
   subtractMoments(v);
   hits_[hit_grid_.find(v)] = {};
   hit_grid_.erase(v);
@@ -125,29 +128,43 @@ void OccupiedVoxelMap::remove(const VoxelIndex& v) {
   }
 }
 
-/// Takes the points of a voxel out of the coarser ones. How they scatter is not kept: they are
-/// taken for their share of what scatters within all voxels of the coarser one.
+/// Takes the points of a voxel out of the coarser ones, which get the sums over what is left: a
+/// difference of large sums would be mostly rounding. How the points of a voxel scatter is not
+/// kept; those left are taken for their share of what scatters within all voxels of the coarser
+/// one. Voxels with two sides stay as they are: of which the points were is not known.
 void OccupiedVoxelMap::subtractMoments(const VoxelIndex& v) {
   const VoxelIndex parent = coarser(v, 1);
   const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
-  const auto momentsOf = [&](const VoxelIndex& c) {
-    return Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
-  };
-  const GaussianLevel& g = gaussians(1);
+  GaussianLevel& g = level(1);
   const uint32_t slot = g.slotOf(parent);
   if (g.hasTwin(slot)) return;
   Moments all;
+  Moments left;
   for (int i = 0; i < kChildren; ++i) {
-    if (isHit(child(parent, i))) all += momentsOf(child(parent, i));
+    const VoxelIndex c = child(parent, i);
+    if (!isHit(c)) continue;
+    const Moments moments = Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
+    all += moments;
+    if (c != v) left += moments;
   }
-  Moments gone = momentsOf(v);
-  gone.outer += gone.count / all.count * (g.moments(slot).outer - all.outer);
-  for (int l = 1; l <= kGaussianLevels; ++l) {
-    const VoxelIndex at = coarser(v, l);
-    const uint32_t its_slot = level(l).slotOf(at);
-    level(l).subtract(its_slot, gone.about(voxelCentre(at, voxelSize(l)) - origin));
-    touch(l, its_slot);
+  left.outer += left.count / all.count * (g.moments(slot).outer - all.outer);
+  g.setMoments(slot, left);
+  for (int l = 2; l <= kGaussianLevels; ++l) sumChildren(l, coarser(v, l));
+}
+
+void OccupiedVoxelMap::sumChildren(int l, const VoxelIndex& v) {
+  const GaussianLevel& finer = gaussians(l - 1);
+  const Eigen::Vector3d origin = voxelCentre(v, voxelSize(l));
+  Moments sum;
+  for (int i = 0; i < kChildren; ++i) {
+    const VoxelIndex c = child(v, i);
+    const uint32_t slot = finer.slotOf(c);
+    if (slot == SlotGrid<8>::kNone) continue;
+    if (finer.hasTwin(slot)) return;
+    sum += finer.moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
   }
+  const uint32_t slot = level(l).slotOf(v);
+  if (!level(l).hasTwin(slot)) level(l).setMoments(slot, sum);
 }
 
 }  // namespace edgevox

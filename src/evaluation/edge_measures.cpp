@@ -231,12 +231,13 @@ class SizeMeasurement {
     });
   }
 
-  /// In the turned grid, as no scan lies along the map's axes.
+  /// In the turned grid, as no scan lies along the map's axes. Two windows that share scans agree
+  /// by that: their repeatability is left out.
   ScanSums measureWindows() {
     const Config& config = options_.config;
     const Pose T_map_grid = turnedGrid(voxel_size_);
     RecentEdges recent(voxel_size_, config.edges, config.mapper.edge_window, 1);
-    return measureEach([&](size_t i, const VoxelScan& scan, double& seconds) {
+    ScanSums sums = measureEach([&](size_t i, const VoxelScan& scan, double& seconds) {
       auto centroids = placedCentroids(recording_, i, scan);
       for (Eigen::Vector3d& centroid : centroids) centroid = T_map_grid.inverse() * centroid;
       StageTimer timer(Clock::kProcessCpu);
@@ -245,6 +246,9 @@ class SizeMeasurement {
       seconds += timer.lap();
       return labelledVoxels(recent.occupied(), edges, voxel_size_, T_map_grid);
     });
+    const auto window = static_cast<size_t>(config.mapper.edge_window);
+    if (options_.pair_step < window) sums.with_scans = {};
+    return sums;
   }
 
   /// `label(i, scan, seconds)` gives the voxels of a scan and adds the time it took.

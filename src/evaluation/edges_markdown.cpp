@@ -26,9 +26,10 @@ std::string head(const Recording& recording, const EdgeMeasureOptions& options) 
   return text +
          ".\n\nEdges of a scan are extracted as published (Ryde, Delmerico, Corso, eq. 5-7), or by "
          "the default without or with its support filter; `in a window`: by the occupancy of the "
-         "scan and of those before it, so many in all (`mapper/edge_window`): " +
+         "scan and of those taken before it, so many in all (`mapper/edge_window`): " +
          std::to_string(options.config.mapper.edge_window) +
-         ". The map holds all scans, deskewed, at "
+         "; the mapper's windows are of scans in sequence, as with `--every 1`. The map holds all "
+         "scans, deskewed, at "
          "these poses; its occupied voxels are those hit by so many scans: " +
          std::to_string(options.config.map.min_hits) +
          ". In a simulated world floors and walls lie on the borders of its voxels, where noise "
@@ -65,7 +66,8 @@ std::string repeatability(const EdgeMeasureOptions& options) {
          std::to_string(options.pair_step) +
          ", the share in or next to an edge voxel of it: of edges, of other voxels, and the "
          "difference. The same between a scan and the map. Recall: of the map's edge voxels in or "
-         "next to an occupied voxel of the scan, the share in or next to an edge voxel of it.";
+         "next to an occupied voxel of the scan, the share in or next to an edge voxel of it. Two "
+         "windows that share scans are not compared.";
 }
 
 constexpr const char* kTruth =

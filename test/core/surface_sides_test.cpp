@@ -74,8 +74,10 @@ TEST(Sides, PointsMatchTheirOwn) {
       const Vector3d to_sensor = (sensor - point).normalized();
       for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
         float distance = 0.0F;
-        const VoxelGaussian* nearest = ceiling.map.gaussians(l).nearest(
-            point.cast<float>(), to_sensor.cast<float>(), false, distance);
+        const GaussianLevel& level = ceiling.map.gaussians(l);
+        const Eigen::Vector3f at = point.cast<float>();
+        const VoxelGaussian* nearest = level.nearest(level.around(level.voxelOf(at), false), at,
+                                                     to_sensor.cast<float>(), distance);
         ASSERT_NE(nullptr, nearest);
         ASSERT_NEAR(above ? Ceiling::kTop : Ceiling::kBottom,
                     static_cast<double>(nearest->mean.z()), 0.005);
@@ -99,8 +101,10 @@ TEST(Sides, ASurfaceSeenFromOneSideIsNotMatchedFromBehind) {
   float distance = 0.0F;
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   const Eigen::Vector3f point(0.5F, 0.5F, 0.5F);
-  EXPECT_NE(nullptr, map.gaussians(1).nearest(point, up, false, distance));
-  EXPECT_EQ(nullptr, map.gaussians(1).nearest(point, -up, false, distance));
+  const GaussianLevel& level = map.gaussians(1);
+  const auto around = level.around(level.voxelOf(point), false);
+  EXPECT_NE(nullptr, level.nearest(around, point, up, distance));
+  EXPECT_EQ(nullptr, level.nearest(around, point, -up, distance));
   EXPECT_EQ(map.occupied(1).voxelCount(), map.gaussians(1).size());  // no twins
 }
 
