@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/gaussian_level.hpp"
 
 namespace edgevox {
 namespace {

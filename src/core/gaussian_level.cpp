@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/gaussian_level.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/LU>
-
-#include "edgevox/occupied_voxel_map.hpp"
 
 namespace edgevox {
 namespace {
