@@ -2,6 +2,7 @@
 // Semi-sparse voxel grids (Ryde et al. 2013, III-C): blocks found by hash, dense bits inside.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -90,6 +91,14 @@ struct BlockLayout {
     return {block.x * kEdge + column, block.y * kEdge + (row & (kEdge - 1)),
             block.z * kEdge + (row >> kShift)};
   }
+
+  using Bits = std::array<Row, kRows>;  ///< row z * kEdge + y, bit x
+  static bool test(const Bits& bits, const VoxelIndex& v) {
+    return (bits[static_cast<size_t>(row(v))] >> column(v)) & 1U;
+  }
+  static bool isEmpty(const Bits& bits) {
+    return std::all_of(bits.begin(), bits.end(), [](Row row) { return row == 0; });
+  }
 };
 
 /// A set of voxels. Cleared blocks keep their memory for the next use.
@@ -98,12 +107,11 @@ class BitGrid {
  public:
   using Layout = BlockLayout<kEdge>;
   using Row = typename Layout::Row;
-  using Block = std::array<Row, Layout::kRows>;  ///< row z * kEdge + y, bit x
+  using Block = typename Layout::Bits;
 
   bool test(const VoxelIndex& v) const {
     const int32_t slot = table_.find(Layout::block(v));
-    if (slot == BlockTable::kNone) return false;
-    return (blocks_[static_cast<size_t>(slot)][Layout::row(v)] >> Layout::column(v)) & 1U;
+    return slot != BlockTable::kNone && Layout::test(blocks_[static_cast<size_t>(slot)], v);
   }
 
   /// True if the voxel was not in the set.
@@ -202,7 +210,7 @@ class SlotGrid {
   static constexpr uint32_t kNone = 0xffffffff;
 
   struct Block {
-    std::array<Row, Layout::kRows> occupied;
+    typename Layout::Bits occupied;
     std::array<uint32_t, Layout::kVoxels> slot;  ///< kNone where no voxel has been
   };
 
@@ -233,7 +241,7 @@ class SlotGrid {
   }
 
   static uint32_t slotIn(const Block& block, const VoxelIndex& v) {
-    const bool set = (block.occupied[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1;
+    const bool set = Layout::test(block.occupied, v);
     return set ? block.slot[static_cast<size_t>(Layout::cell(v))] : kNone;
   }
 

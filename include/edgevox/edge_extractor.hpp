@@ -40,8 +40,8 @@ extern template class EdgeLabeller<8>;
 extern template class EdgeLabeller<16>;
 extern template class EdgeLabeller<32>;
 
-/// What labels the accumulated map; its edges are thinned afterwards.
-EdgeLabeller<16> mapLabeller(const EdgeConfig& config, int threads);
+/// What labels occupancy accumulated from scans; its edges are thinned afterwards.
+EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threads);
 
 /// Structure tensor and support look at several voxels, so edges come as bands: of the
 /// `candidates` among `targets` those become `edges` that have at least `neighbours` other

@@ -131,7 +131,7 @@ class GaussianLevel {
 
  private:
   using Layout = BlockLayout<8>;
-  using Bits = std::array<uint8_t, Layout::kRows>;
+  using Bits = Layout::Bits;
 
   uint32_t newCell(const VoxelIndex& v);
   uint32_t newTwin(const VoxelIndex& v);

@@ -24,7 +24,7 @@ class RecentEdges {
 
   /// One scan's centroids, map frame [m]; those out of the grid's range are ignored.
   void add(std::vector<Eigen::Vector3d> centroids);
-  void clear();
+  void clear() { scans_.clear(); }
 
   /// Voxels of the last scan.
   BitGrid<16> occupied() const;
@@ -34,12 +34,13 @@ class RecentEdges {
   std::vector<Eigen::Vector3f> edgeCentroids() const;
 
  private:
+  void setVoxels(const std::vector<Eigen::Vector3d>& centroids, BitGrid<16>& voxels) const;
+
   double voxel_size_;
   EdgeLabeller<16> labeller_;
   int neighbours_;  // see thinEdges()
   size_t window_;
-  std::deque<std::vector<VoxelIndex>> scans_;  // their voxels, some of them repeated
-  std::vector<Eigen::Vector3d> centroids_;     // of the last scan
+  std::deque<std::vector<Eigen::Vector3d>> scans_;  // their centroids
 };
 
 }  // namespace edgevox

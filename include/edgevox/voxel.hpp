@@ -61,6 +61,11 @@ inline bool inGridRange(const VoxelIndex& v) {
   return ok(v.x) && ok(v.y) && ok(v.z);
 }
 
+/// The same for a point [m]; false if it is not finite.
+inline bool inGridRange(const Eigen::Vector3d& point, double voxel_size) {
+  return (point.array().abs() < (kIndexLimit - 1) * voxel_size).all();
+}
+
 /// 21 bits an axis; unique for indices in the grid range.
 inline uint64_t packedIndex(const VoxelIndex& v) {
   const auto bits = [](int32_t i) { return static_cast<uint64_t>(i + kIndexLimit); };

@@ -117,10 +117,10 @@ template class EdgeLabeller<8>;
 template class EdgeLabeller<16>;
 template class EdgeLabeller<32>;
 
-EdgeLabeller<16> mapLabeller(const EdgeConfig& config, int threads) {
+EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threads) {
   EdgeConfig of_map = config;
   of_map.ratio = config.map_ratio;
-  return {of_map, config.map_support, threads};
+  return {of_map, support, threads};
 }
 
 template <int kEdge>
@@ -169,7 +169,7 @@ void EdgeExtractor::setFlags(VoxelScan& scan) const {
     const VoxelIndex block = Layout::block(v);
     if (edges == nullptr || block != last) edges = edges_.findBlock(block);
     last = block;
-    voxel.edge = (((*edges)[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1U) != 0;
+    voxel.edge = Layout::test(*edges, v);
   }
 }
 

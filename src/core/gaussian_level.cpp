@@ -163,7 +163,7 @@ GaussianLevel::Around GaussianLevel::around(const VoxelIndex& voxel, bool all) c
     if (found == BlockTable::kNone) continue;
     const auto block = static_cast<size_t>(found);
     const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-    if (((bits[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1) == 0) continue;
+    if (!Layout::test(bits, v)) continue;
     around.slots[around.count++] = grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))];
   }
   return around;
@@ -359,10 +359,8 @@ size_t GaussianLevel::selectedGaussians() const {
 }
 
 size_t GaussianLevel::blocksWithSelection() const {
-  return static_cast<size_t>(
-      std::count_if(selected_.begin(), selected_.end(), [](const Bits& bits) {
-        return std::any_of(bits.begin(), bits.end(), [](uint8_t row) { return row != 0; });
-      }));
+  return selected_.size() -
+         static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(), Layout::isEmpty));
 }
 
 size_t GaussianLevel::bytes() const {

@@ -73,8 +73,7 @@ void forEachOnLine(const BitGrid<kEdge>& grid, const Eigen::Vector3d& from,
       block = Layout::block(v);
       bits = grid.findBlock(block);
     }
-    if (bits == nullptr) continue;
-    if ((((*bits)[static_cast<size_t>(Layout::row(v))] >> Layout::column(v)) & 1U) != 0) visit(v);
+    if (bits != nullptr && Layout::test(*bits, v)) visit(v);
   } while (walk.advance());
 }
 

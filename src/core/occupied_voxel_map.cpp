@@ -44,8 +44,7 @@ size_t blocksOfEight(const BitGrid<16>& grid) {
 size_t blocksWithBits(const BitGrid<8>& grid) {
   size_t count = 0;
   for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
-    const auto& rows = grid.block(slot);
-    count += std::any_of(rows.begin(), rows.end(), [](uint8_t row) { return row != 0; }) ? 1 : 0;
+    count += BlockLayout<8>::isEmpty(grid.block(slot)) ? 0 : 1;
   }
   return count;
 }
@@ -56,7 +55,7 @@ OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, con
                                    const EdgeConfig& edges, int threads)
     : voxel_size_(voxel_size),
       config_(map),
-      labeller_(mapLabeller(edges, threads)),
+      labeller_(mapLabeller(edges, edges.map_support, threads)),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
@@ -72,17 +71,13 @@ void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
                            const Eigen::Vector3d& sensor) {
   ++scans_;
   voxels_.clear();
-  const double limit = (kIndexLimit - 1) * voxel_size_;
-  const bool all_inside =
-      std::all_of(centroids.begin(), centroids.end(),
-                  [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
-  if (all_inside) {
+  const auto is_inside = [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); };
+  if (std::all_of(centroids.begin(), centroids.end(), is_inside)) {
     addInside(centroids, sensor);
     return;
   }
   std::vector<Eigen::Vector3d> inside;
-  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(inside),
-               [limit](const Eigen::Vector3d& c) { return (c.array().abs() < limit).all(); });
+  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(inside), is_inside);
   ignored_ += centroids.size() - inside.size();
   addInside(inside, sensor);
 }

@@ -223,16 +223,21 @@ class SizeMeasurement {
 
   ScanSums measureScans(const Method& method) {
     EdgeExtractor extractor(configOf(method, options_.config.edges), 1);
-    return measureEach([&](size_t i, VoxelScan scan, double& seconds) {
+    TruthScore caused;
+    ScanSums sums = measureEach([&](size_t i, VoxelScan scan, double& seconds) {
       StageTimer timer(Clock::kProcessCpu);
       extractor.extract(scan);
       seconds += timer.lap();
-      return labelledVoxels(recording_, i, scan);
+      LabelledVoxels voxels = labelledVoxels(recording_, i, scan);
+      caused += causesInScan(i, voxels);
+      return voxels;
     });
+    sums.truth += caused;
+    return sums;
   }
 
   /// In the turned grid, as no scan lies along the map's axes. Two windows that share scans agree
-  /// by that: their repeatability is left out.
+  /// by that: their repeatability is left out. The causes of false edges lie in several scans.
   ScanSums measureWindows() {
     const Config& config = options_.config;
     const Pose T_map_grid = turnedGrid(voxel_size_);
@@ -275,16 +280,18 @@ class SizeMeasurement {
     sums.recall += recallOf(voxels, map_cells_.edges);
     if (judge_ == nullptr) return;
     sums.truth += judge_->score(voxels, truth_->seen_by[i]);
-    if (voxels.in_map) return;  // the causes lie in the scans before as well
+  }
+
+  TruthScore causesInScan(size_t i, const LabelledVoxels& voxels) const {
+    TruthScore score;
+    if (judge_ == nullptr) return score;
     const SimulatedTruth& simulated = *recording_.truth;
     const FalseEdgeJudge judge(simulated.world, simulated.sensor,
                                {recording_.scans[i].T_map_sensor}, movedIn(recording_, i, i));
-    const CauseCounts causes = judge_->causes(
-        voxels, judge, kJudgedInScan,
-        [&](const LabelledVoxel& edge) { return recording_.poseAt(i, edge.time_offset); });
-    TruthScore caused;
-    caused.causes = causes;
-    sums.truth += caused;
+    score.causes = judge_->causes(voxels, judge, kJudgedInScan, [&](const LabelledVoxel& edge) {
+      return recording_.poseAt(i, edge.time_offset);
+    });
+    return score;
   }
 
   void writeMap(const LabelledMap& map, Table& table) const {

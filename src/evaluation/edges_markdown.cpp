@@ -29,8 +29,7 @@ std::string head(const Recording& recording, const EdgeMeasureOptions& options) 
          "scan and of those taken before it, so many in all (`mapper/edge_window`): " +
          std::to_string(options.config.mapper.edge_window) +
          "; the mapper's windows are of scans in sequence, as with `--every 1`. The map holds all "
-         "scans, deskewed, at "
-         "these poses; its occupied voxels are those hit by so many scans: " +
+         "scans, deskewed, at these poses; its occupied voxels are those hit by so many scans: " +
          std::to_string(options.config.map.min_hits) +
          ". In a simulated world floors and walls lie on the borders of its voxels, where noise "
          "spreads them over two layers; in the turned grid (25 degrees about the vertical, four "

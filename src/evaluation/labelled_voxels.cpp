@@ -57,7 +57,6 @@ LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& ed
   LabelledVoxels labelled;
   labelled.voxel_size = voxel_size;
   labelled.T_map_grid = T_map_grid;
-  labelled.in_map = true;
   occupied.forEach([&](const VoxelIndex& v) {
     const bool edge = edges.test(v);
     labelled.voxels.push_back({v, T_map_grid * voxelCentre(v, voxel_size), 0.0, edge});

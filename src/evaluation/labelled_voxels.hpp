@@ -25,7 +25,6 @@ struct LabelledVoxels {
   Pose T_map_grid = Pose::Identity();  ///< of a scan: T_map_sensor at the stamp
   std::vector<LabelledVoxel> voxels;
   size_t edges = 0;
-  bool in_map = false;  ///< the grid stands in the map, as against one that moves with the sensor
 
   size_t occupied() const { return voxels.size(); }
 };

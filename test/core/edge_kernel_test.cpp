@@ -309,35 +309,6 @@ TEST(Targets, OtherLabelsStay) {
   for (const VoxelIndex& v : others) ASSERT_TRUE(edges.test(v));
 }
 
-template <int kEdge>
-void expectThinned(const Voxels& candidates, const Voxels& targets, int neighbours) {
-  const auto thinned = gridOf<16>(thinnedAtOnce(candidates, neighbours));
-  const auto target = gridOf<16>(targets);
-  Voxels expected;
-  for (const VoxelIndex& v : candidates) {
-    if (!target.test(v) || thinned.test(v)) expected.push_back(v);
-  }
-  auto edges = gridOf<kEdge>(candidates);  // all of them, to begin with
-  thinEdges<kEdge>(gridOf<kEdge>(candidates), gridOf<kEdge>(targets), neighbours, edges);
-  EXPECT_TRUE(sameVoxels(expected, voxelsOf(edges))) << kEdge << " " << neighbours;
-}
-
-TEST(Thinning, IsThatOfEachVoxelByItself) {
-  Random random(18);
-  for (const double density : {0.1, 0.3, 0.7, 1.0}) {
-    const Voxels candidates = randomCloud(random, 40, density);
-    Voxels targets;
-    for (const VoxelIndex& v : candidates) {
-      if (random.chance(0.7)) targets.push_back(v);
-    }
-    for (const int neighbours : {0, 1, 8, 25, 26}) {
-      expectThinned<8>(candidates, targets, neighbours);
-      expectThinned<16>(candidates, targets, neighbours);
-      expectThinned<32>(candidates, targets, neighbours);
-    }
-  }
-}
-
 /// Cuts a cloud in half: how far from the cut labels change [voxels].
 int farthestChange(const EdgeConfig& config, const Voxels& voxels, int32_t VoxelIndex::*axis) {
   Voxels half;
