@@ -14,16 +14,20 @@
 
 namespace edgevox {
 
+/// Different in every process, so that nobody can choose coordinates that collide in a hash.
+uint64_t hashSecret();
+
 /// Open-addressing hash from a block's index to its slot; slots are 0, 1, 2, ... in order of
-/// insertion, so that the order of iteration depends on the input alone.
+/// insertion, so that the order of iteration depends on the input alone, not on the hash. A search
+/// looks at no more than kMaxProbes buckets beside the first.
 class BlockTable {
  public:
   static constexpr int32_t kNone = -1;
 
-  BlockTable() : buckets_(kMinBuckets, kNone) {}
+  explicit BlockTable(uint64_t seed = hashSecret()) : seed_(seed), buckets_(kMinBuckets, kNone) {}
 
   int32_t find(const VoxelIndex& block) const {
-    for (size_t b = firstBucket(block);; b = (b + 1) & (buckets_.size() - 1)) {
+    for (size_t b = firstBucket(block);; b = next(b)) {
       const int32_t slot = buckets_[b];
       if (slot == kNone || blocks_[static_cast<size_t>(slot)] == block) return slot;
     }
@@ -31,18 +35,29 @@ class BlockTable {
 
   int32_t findOrInsert(const VoxelIndex& block) {
     size_t b = firstBucket(block);
-    for (; buckets_[b] != kNone; b = (b + 1) & (buckets_.size() - 1)) {
+    size_t probes = 0;
+    for (; buckets_[b] != kNone; b = next(b), ++probes) {
       if (blocks_[static_cast<size_t>(buckets_[b])] == block) return buckets_[b];
     }
     const auto slot = static_cast<int32_t>(blocks_.size());
     buckets_[b] = slot;
     blocks_.push_back(block);
-    if (2 * blocks_.size() > buckets_.size()) rehash(2 * buckets_.size());
+    const bool full = 2 * blocks_.size() > buckets_.size();
+    if (full || probes > kMaxProbes) rehash(full ? 2 * buckets_.size() : buckets_.size());
     return slot;
   }
 
   size_t size() const { return blocks_.size(); }
   const VoxelIndex& block(size_t slot) const { return blocks_[slot]; }
+  /// Buckets that a search for a known block looks at in vain.
+  size_t probes(const VoxelIndex& block) const {
+    size_t count = 0;
+    for (size_t b = firstBucket(block); blocks_[static_cast<size_t>(buckets_[b])] != block;
+         b = next(b)) {
+      ++count;
+    }
+    return count;
+  }
 
   void clear() {
     blocks_.clear();
@@ -55,23 +70,43 @@ class BlockTable {
 
  private:
   static constexpr size_t kMinBuckets = 64;
+  // Half full, a table of a million random blocks has no search as long.
+  static constexpr size_t kMaxProbes = 128;
 
   size_t firstBucket(const VoxelIndex& block) const {
-    return voxelHash(block) & (buckets_.size() - 1);
+    return mixBits(packedIndex(block) ^ seed_) & (buckets_.size() - 1);
+  }
+  size_t next(size_t bucket) const { return (bucket + 1) & (buckets_.size() - 1); }
+
+  /// By another hash if this one needs too long searches.
+  void rehash(size_t bucket_count) {
+    while (!fill(bucket_count)) seed_ = mixBits(seed_ + 1);
   }
 
-  void rehash(size_t bucket_count) {
+  bool fill(size_t bucket_count) {
     buckets_.assign(bucket_count, kNone);
     for (size_t slot = 0; slot < blocks_.size(); ++slot) {
       size_t b = firstBucket(blocks_[slot]);
-      while (buckets_[b] != kNone) b = (b + 1) & (buckets_.size() - 1);
+      size_t probes = 0;
+      for (; buckets_[b] != kNone; b = next(b)) ++probes;
+      if (probes > kMaxProbes) return false;
       buckets_[b] = static_cast<int32_t>(slot);
     }
+    return true;
   }
 
+  uint64_t seed_;                 // of the hash
   std::vector<int32_t> buckets_;  // a power of two, at most half full
   std::vector<VoxelIndex> blocks_;
 };
+
+/// Without an instruction that not all processors have.
+inline size_t bitCount(uint64_t bits) {
+  bits -= (bits >> 1) & 0x5555555555555555ULL;
+  bits = (bits & 0x3333333333333333ULL) + ((bits >> 2) & 0x3333333333333333ULL);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fULL;
+  return (bits * 0x0101010101010101ULL) >> 56;
+}
 
 /// The place of a voxel inside a block of kEdge voxels a side.
 template <int kEdge>
@@ -201,37 +236,68 @@ class BitGrid {
   size_t last_slot_ = 0;
 };
 
-/// From a voxel to a number given at its insertion: where its data are kept.
+/// From a voxel to a number given at its insertion: where its data are kept. A block holds the
+/// numbers of its voxels and no others, so that a voxel on its own is small.
 template <int kEdge>
 class SlotGrid {
  public:
   using Layout = BlockLayout<kEdge>;
-  using Row = typename Layout::Row;
   static constexpr uint32_t kNone = 0xffffffff;
 
-  struct Block {
-    typename Layout::Bits occupied;
-    std::array<uint32_t, Layout::kVoxels> slot;  ///< kNone where no voxel has been
+  /// A bit a cell of a block.
+  class Bits {
+   public:
+    bool test(int cell) const { return (words_[wordOf(cell)] >> (cell & 63)) & 1U; }
+    void set(int cell) { words_[wordOf(cell)] |= uint64_t{1} << (cell & 63); }
+    void reset(int cell) { words_[wordOf(cell)] &= ~(uint64_t{1} << (cell & 63)); }
+    void flip(int cell) { words_[wordOf(cell)] ^= uint64_t{1} << (cell & 63); }
+    bool any() const {
+      return std::any_of(words_.begin(), words_.end(), [](uint64_t word) { return word != 0; });
+    }
+    /// Bits in the cell's word before the cell.
+    size_t countBefore(int cell) const {
+      return bitCount(words_[wordOf(cell)] & ((uint64_t{1} << (cell & 63)) - 1));
+    }
+
+    static constexpr size_t kWords = Layout::kVoxels / 64;
+    static size_t wordOf(int cell) { return static_cast<size_t>(cell >> 6); }
+
+   private:
+    std::array<uint64_t, kWords> words_{};
   };
 
-  /// The voxel's slot; a new voxel gets `next`, one that was erased the slot it had.
+  struct Block {
+    Bits occupied;
+    std::array<uint16_t, Bits::kWords> before{};  ///< occupied cells in the words before
+    std::vector<uint32_t> slots;                  ///< of the occupied cells, in their order
+
+    size_t rank(int cell) const { return before[Bits::wordOf(cell)] + occupied.countBefore(cell); }
+    uint32_t slotOf(int cell) const { return slots[rank(cell)]; }
+  };
+
+  /// The voxel's slot; a new voxel gets `next`.
   uint32_t insert(const VoxelIndex& v, uint32_t next) {
     Block& block = blockOf(Layout::block(v));
-    Row& row = block.occupied[static_cast<size_t>(Layout::row(v))];
-    uint32_t& slot = block.slot[static_cast<size_t>(Layout::cell(v))];
-    const auto bit = static_cast<Row>(1U << Layout::column(v));
-    if ((row & bit) == 0) {
-      row = static_cast<Row>(row | bit);
-      if (slot == kNone) slot = next;
-    }
-    return slot;
+    const int cell = Layout::cell(v);
+    const auto at = block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell));
+    if (block.occupied.test(cell)) return *at;
+    const size_t capacity = block.slots.capacity();
+    block.slots.insert(at, next);
+    slot_bytes_ += (block.slots.capacity() - capacity) * sizeof(uint32_t);
+    block.occupied.set(cell);
+    for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) ++block.before[w];
+    return next;
   }
 
   void erase(const VoxelIndex& v) {
-    const int32_t block = findBlock(Layout::block(v));
-    if (block == BlockTable::kNone) return;
-    Row& row = blocks_[static_cast<size_t>(block)].occupied[static_cast<size_t>(Layout::row(v))];
-    row = static_cast<Row>(row & ~(1U << Layout::column(v)));
+    const int32_t found = findBlock(Layout::block(v));
+    if (found == BlockTable::kNone) return;
+    Block& block = blocks_[static_cast<size_t>(found)];
+    const int cell = Layout::cell(v);
+    if (!block.occupied.test(cell)) return;
+    block.slots.erase(block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell)));
+    block.occupied.reset(cell);
+    for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) --block.before[w];
   }
 
   uint32_t find(const VoxelIndex& v) const {
@@ -241,19 +307,14 @@ class SlotGrid {
   }
 
   static uint32_t slotIn(const Block& block, const VoxelIndex& v) {
-    const bool set = Layout::test(block.occupied, v);
-    return set ? block.slot[static_cast<size_t>(Layout::cell(v))] : kNone;
+    const int cell = Layout::cell(v);
+    return block.occupied.test(cell) ? block.slotOf(cell) : kNone;
   }
 
   /// Calls visit(slot) for the voxels of a block in a fixed order.
   template <typename Visit>
   void forEachInBlock(size_t block, Visit&& visit) const {
-    const Block& b = blocks_[block];
-    for (size_t row = 0; row < b.occupied.size(); ++row) {
-      for (uint32_t bits = b.occupied[row]; bits != 0; bits &= bits - 1) {
-        visit(b.slot[row * kEdge + static_cast<size_t>(__builtin_ctz(bits))]);
-      }
-    }
+    for (const uint32_t slot : blocks_[block].slots) visit(slot);
   }
 
   /// BlockTable::kNone if there is none.
@@ -262,31 +323,24 @@ class SlotGrid {
   const VoxelIndex& blockIndex(size_t block) const { return table_.block(block); }
   const Block& block(size_t block) const { return blocks_[block]; }
 
-  void clear() {
-    table_.clear();
-    last_ = kNoBlock;
-  }
+  void clear() { *this = {}; }
 
-  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block); }
+  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block) + slot_bytes_; }
 
  private:
   static constexpr size_t kNoBlock = static_cast<size_t>(-1);
 
   Block& blockOf(const VoxelIndex& block) {
     if (last_ != kNoBlock && block == last_index_) return blocks_[last_];
-    const size_t known = table_.size();
     last_ = static_cast<size_t>(table_.findOrInsert(block));
     last_index_ = block;
     if (last_ == blocks_.size()) blocks_.emplace_back();
-    if (last_ == known) {
-      blocks_[last_].occupied.fill(0);
-      blocks_[last_].slot.fill(kNone);
-    }
     return blocks_[last_];
   }
 
   BlockTable table_;
-  std::deque<Block> blocks_;  // the first table_.size() are in use
+  std::deque<Block> blocks_;
+  size_t slot_bytes_ = 0;
   size_t last_ = kNoBlock;
   VoxelIndex last_index_;
 };

@@ -130,11 +130,13 @@ class GaussianLevel {
   size_t bytes() const;
 
  private:
-  using Layout = BlockLayout<8>;
-  using Bits = Layout::Bits;
+  using Grid = SlotGrid<8>;
+  using Layout = Grid::Layout;
 
+  /// Of the next new cell: one that has been erased, or behind all others.
+  uint32_t nextSlot() const;
   uint32_t newCell(const VoxelIndex& v);
-  uint32_t newTwin(const VoxelIndex& v);
+  void freeCell(uint32_t slot);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor);
   void setStale(uint32_t slot);
   enum class Side { kKeep, kRefresh };
@@ -144,13 +146,13 @@ class GaussianLevel {
   void dropRepeats();
 
   double voxel_size_;
-  SlotGrid<8> grid_;
-  std::deque<Bits> selected_;  // one a block of grid_
+  Grid grid_;
+  std::deque<Grid::Bits> selected_;  // one a block of grid_
   size_t selected_count_ = 0;
   Pool<Cell> cells_;
   Pool<VoxelIndex> voxels_;
   Pool<VoxelGaussian> gaussians_;
-  std::vector<uint32_t> free_twins_;
+  std::vector<uint32_t> free_;              // erased slots
   std::vector<uint32_t> stale_;             // slots stale since the last update of any kind
   std::vector<uint32_t> stale_unselected_;  // before that; some are updated since, or repeated
 };

@@ -114,6 +114,7 @@ class OccupiedVoxelMap {
   size_t cleared_count_ = 0;
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
+  std::vector<uint32_t> free_hits_;  // slots of removed voxels
   BitGrid<16> hit_voxels_;
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
   BitGrid<16> edge_voxels_;

@@ -163,8 +163,8 @@ GaussianLevel::Around GaussianLevel::around(const VoxelIndex& voxel, bool all) c
     if (found == BlockTable::kNone) continue;
     const auto block = static_cast<size_t>(found);
     const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-    if (!Layout::test(bits, v)) continue;
-    around.slots[around.count++] = grid_.block(block).slot[static_cast<size_t>(Layout::cell(v))];
+    const int cell = Layout::cell(v);
+    if (bits.test(cell)) around.slots[around.count++] = grid_.block(block).slotOf(cell);
   }
   return around;
 }
@@ -190,35 +190,42 @@ const VoxelGaussian* GaussianLevel::nearest(const Around& around, const Eigen::V
 }
 
 uint32_t GaussianLevel::slotFor(const VoxelIndex& v) {
-  const auto next = static_cast<uint32_t>(cells_.size());
-  const uint32_t slot = grid_.insert(v, next);
-  if (slot == next) {
+  const uint32_t slot = grid_.insert(v, nextSlot());
+  if (slot == nextSlot()) {
     newCell(v);
-    while (selected_.size() < grid_.blockCount()) selected_.emplace_back(Bits{});
+    while (selected_.size() < grid_.blockCount()) selected_.emplace_back();
   }
   return slot;
 }
 
-uint32_t GaussianLevel::newCell(const VoxelIndex& v) {
-  cells_.grow();
-  voxels_.grow() = v;
-  gaussians_.grow();
-  return static_cast<uint32_t>(cells_.size() - 1);
+uint32_t GaussianLevel::nextSlot() const {
+  return free_.empty() ? static_cast<uint32_t>(cells_.size()) : free_.back();
 }
 
-uint32_t GaussianLevel::newTwin(const VoxelIndex& v) {
-  if (free_twins_.empty()) return newCell(v);
-  const uint32_t twin = free_twins_.back();
-  free_twins_.pop_back();
-  voxels_[twin] = v;
-  return twin;
+uint32_t GaussianLevel::newCell(const VoxelIndex& v) {
+  const uint32_t slot = nextSlot();
+  if (free_.empty()) {
+    cells_.grow();
+    voxels_.grow();
+    gaussians_.grow();
+  } else {
+    free_.pop_back();
+  }
+  voxels_[slot] = v;
+  return slot;
+}
+
+void GaussianLevel::freeCell(uint32_t slot) {
+  cells_[slot] = {};
+  gaussians_[slot] = {};
+  free_.push_back(slot);
 }
 
 /// The cell of the surface in the voxel that `to_sensor` sees.
 uint32_t GaussianLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor) {
   if (!gaussians_[slot].facesAway(to_sensor)) return slot;
   if (!hasTwin(slot)) {
-    const uint32_t twin = newTwin(voxels_[slot]);
+    const uint32_t twin = newCell(voxels_[slot]);
     cells_[twin].is_twin = true;
     cells_[twin].selected = cells_[slot].selected;
     gaussians_[slot].twin = twin;
@@ -271,15 +278,8 @@ void GaussianLevel::setMoments(uint32_t slot, const Moments& moments) {
 void GaussianLevel::erase(const VoxelIndex& v) {
   const uint32_t slot = slotOf(v);
   select(slot, false);
-  if (hasTwin(slot)) {
-    const uint32_t twin = gaussians_[slot].twin;
-    cells_[twin] = {};
-    cells_[twin].is_twin = true;
-    gaussians_[twin] = {};
-    free_twins_.push_back(twin);
-  }
-  cells_[slot] = {};
-  gaussians_[slot] = {};
+  if (hasTwin(slot)) freeCell(gaussians_[slot].twin);
+  freeCell(slot);
   grid_.erase(v);
 }
 
@@ -325,8 +325,7 @@ void GaussianLevel::select(uint32_t slot, bool selected) {
   if (cells_[slot].selected == selected) return;
   const VoxelIndex& v = voxels_[slot];
   const auto block = static_cast<size_t>(grid_.findBlock(Layout::block(v)));
-  uint8_t& row = selected_[block][static_cast<size_t>(Layout::row(v))];
-  row = static_cast<uint8_t>(row ^ (1U << Layout::column(v)));
+  selected_[block].flip(Layout::cell(v));
   selected ? ++selected_count_ : --selected_count_;
   for (uint32_t side = slot; side != VoxelGaussian::kNoTwin; side = gaussians_[side].twin) {
     cells_[side].selected = selected;
@@ -359,12 +358,12 @@ size_t GaussianLevel::selectedGaussians() const {
 }
 
 size_t GaussianLevel::blocksWithSelection() const {
-  return selected_.size() -
-         static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(), Layout::isEmpty));
+  return static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(),
+                                           [](const Grid::Bits& bits) { return bits.any(); }));
 }
 
 size_t GaussianLevel::bytes() const {
-  return grid_.bytes() + selected_.size() * sizeof(Bits) + cells_.bytes() + voxels_.bytes() +
+  return grid_.bytes() + selected_.size() * sizeof(Grid::Bits) + cells_.bytes() + voxels_.bytes() +
          gaussians_.bytes();
 }
 

@@ -108,9 +108,11 @@ bool OccupiedVoxelMap::labelDue() const {
 
 void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    const auto next = static_cast<uint32_t>(hits_.size());
+    const uint32_t next =
+        free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
     slots_[i] = hit_grid_.insert(voxels_[i], next);
-    if (slots_[i] == next) hits_.grow();
+    if (slots_[i] != next) continue;
+    free_hits_.empty() ? static_cast<void>(hits_.grow()) : free_hits_.pop_back();
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
     Hit& hit = hits_[slots_[i]];
@@ -260,6 +262,7 @@ void OccupiedVoxelMap::clear() {
   cleared_count_ = 0;
   hit_grid_ = {};
   hits_ = {};
+  free_hits_ = {};
   hit_voxels_ = {};
   edge_candidates_ = {};
   edge_voxels_ = {};

@@ -114,7 +114,9 @@ void OccupiedVoxelMap::remove(const VoxelIndex& v) {
   if (edge_voxels_.reset(v)) countEdge(1, coarser(v, 1), -1);
   for (int l = 1; l <= kGaussianLevels; ++l) touch(l, gaussians(l).slotOf(coarser(v, l)));
   subtractMoments(v);
-  hits_[hit_grid_.find(v)] = {};
+  const uint32_t slot = hit_grid_.find(v);
+  hits_[slot] = {};
+  free_hits_.push_back(slot);
   hit_grid_.erase(v);
   VoxelIndex at = coarser(v, 1);
   bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The block grids against the standard containers, under random operations.
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -91,6 +92,39 @@ TEST(BlockTable, IsEmptyAfterClear) {
   EXPECT_EQ(0, table.findOrInsert({5, 5, 5}));
 }
 
+/// Blocks whose hashes end alike in a table without a secret.
+Voxels collidingBlocks(size_t count) {
+  constexpr uint64_t kSameBits = (1 << 18) - 1;
+  Voxels blocks;
+  for (int32_t i = 0; blocks.size() < count; ++i) {
+    const VoxelIndex block{i & 0xffff, i >> 16, 0};
+    if ((voxelHash(block) & kSameBits) == 0) blocks.push_back(block);
+  }
+  return blocks;
+}
+
+TEST(BlockTable, ChosenBlocksDoNotCollide) {
+  const Voxels blocks = collidingBlocks(2000);
+  BlockTable table;
+  size_t longest = 0;
+  for (const VoxelIndex& block : blocks) table.findOrInsert(block);
+  for (const VoxelIndex& block : blocks) longest = std::max(longest, table.probes(block));
+  EXPECT_LT(longest, 64U);
+}
+
+TEST(BlockTable, FindsAnotherHashWhenSearchesGetLong) {
+  constexpr uint64_t kKnownSeed = 0;
+  const Voxels blocks = collidingBlocks(2000);
+  BlockTable table(kKnownSeed);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    ASSERT_EQ(static_cast<int32_t>(i), table.findOrInsert(blocks[i]));
+  }
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    ASSERT_EQ(static_cast<int32_t>(i), table.find(blocks[i]));
+    ASSERT_LE(table.probes(blocks[i]), 128U);
+  }
+}
+
 TYPED_TEST(Grids, BitGridIsASet) {
   Random random(3);
   BitGrid<TypeParam::kValue> grid;
@@ -146,10 +180,14 @@ TYPED_TEST(Grids, SlotGridIsAMap) {
   Random random(5);
   SlotGrid<TypeParam::kValue> grid;
   std::map<VoxelIndex, uint32_t> expected;
-  for (int i = 0; i < 60000; ++i) {
+  for (uint32_t next = 0; next < 60000; ++next) {
     const VoxelIndex v = someVoxel(random);
-    const auto next = static_cast<uint32_t>(expected.size());
-    ASSERT_EQ(expected.emplace(v, next).first->second, grid.insert(v, next));
+    if (random.chance(0.6)) {
+      ASSERT_EQ(expected.emplace(v, next).first->second, grid.insert(v, next));
+    } else {
+      expected.erase(v);
+      grid.erase(v);
+    }
     const VoxelIndex other = someVoxel(random);
     const auto known = expected.find(other);
     ASSERT_EQ(known == expected.end() ? grid.kNone : known->second, grid.find(other));
@@ -158,6 +196,35 @@ TYPED_TEST(Grids, SlotGridIsAMap) {
       expected.clear();
     }
   }
+}
+
+TYPED_TEST(Grids, SlotGridVisitsTheVoxelsOfABlockInTheirOrder) {
+  using Grid = SlotGrid<TypeParam::kValue>;
+  using Layout = typename Grid::Layout;
+  Random random(9);
+  Grid grid;
+  std::map<VoxelIndex, std::map<int, uint32_t>> expected;  // slots by block and cell
+  for (uint32_t i = 0; i < 3000; ++i) {
+    const VoxelIndex v = random.voxelIn(-40, 40);
+    expected[Layout::block(v)].emplace(Layout::cell(v), i);
+    grid.insert(v, i);
+  }
+  ASSERT_EQ(expected.size(), grid.blockCount());
+  for (size_t block = 0; block < grid.blockCount(); ++block) {
+    std::vector<uint32_t> slots;
+    for (const auto& [cell, slot] : expected[grid.blockIndex(block)]) slots.push_back(slot);
+    std::vector<uint32_t> visited;
+    grid.forEachInBlock(block, [&](uint32_t slot) { visited.push_back(slot); });
+    ASSERT_EQ(slots, visited);
+  }
+}
+
+TYPED_TEST(Grids, SlotGridKeepsALoneVoxelSmall) {
+  SlotGrid<TypeParam::kValue> grid;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) grid.insert({200 * i, 0, 0}, static_cast<uint32_t>(i));
+  constexpr size_t kBitsOfABlock = BlockLayout<TypeParam::kValue>::kVoxels / 8;
+  EXPECT_LT(grid.bytes(), kCount * (kBitsOfABlock + kBitsOfABlock / 4 + 80));
 }
 
 TYPED_TEST(Grids, SlotGridFindsWithinABlock) {
