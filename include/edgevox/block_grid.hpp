@@ -100,7 +100,7 @@ class BlockTable {
   std::vector<VoxelIndex> blocks_;
 };
 
-/// Without an instruction that not all processors have.
+/// Without an instruction that some processors lack.
 inline size_t bitCount(uint64_t bits) {
   bits -= (bits >> 1) & 0x5555555555555555ULL;
   bits = (bits & 0x3333333333333333ULL) + ((bits >> 2) & 0x3333333333333333ULL);
@@ -234,6 +234,28 @@ class BitGrid {
   size_t used_ = 0;
   VoxelIndex last_index_;  // of the last insertBlock()
   size_t last_slot_ = 0;
+};
+
+/// Tests voxels that lie near one another: the block of the last one is kept.
+template <int kEdge>
+class BitReader {
+ public:
+  /// `grid` must outlive this and stay as it is.
+  explicit BitReader(const BitGrid<kEdge>& grid) : grid_(grid) {}
+
+  bool test(const VoxelIndex& v) {
+    const VoxelIndex block = BitGrid<kEdge>::Layout::block(v);
+    if (!known_ || block != index_) block_ = grid_.findBlock(block);
+    known_ = true;
+    index_ = block;
+    return block_ != nullptr && BitGrid<kEdge>::Layout::test(*block_, v);
+  }
+
+ private:
+  const BitGrid<kEdge>& grid_;
+  const typename BitGrid<kEdge>::Block* block_ = nullptr;
+  VoxelIndex index_;
+  bool known_ = false;
 };
 
 /// From a voxel to a number given at its insertion: where its data are kept. A block holds the

@@ -51,6 +51,9 @@ struct MapConfig {
   int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
   int label_every = 5;  ///< scans between two labellings
   int clear_after = 0;  ///< scans that see through a voxel unhit before it leaves, 0: off
+  /// Scans within which a voxel that stands alone must be hit again to enter the map, 0: off
+  int confirm_within = 10;
+  int memory = 4000;  ///< of the map while mapping, after which no voxels are added [MB]
 };
 
 struct MatcherConfig {

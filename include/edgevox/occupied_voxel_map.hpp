@@ -12,6 +12,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/gaussian_level.hpp"
+#include "edgevox/lone_voxels.hpp"
 #include "edgevox/pool.hpp"
 #include "edgevox/voxel.hpp"
 
@@ -32,8 +33,8 @@ class OccupiedVoxelMap {
   /// add(), then label() when it is due.
   void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   /// Adds one scan's centroids, seen from `sensor`, in the map frame [m]; those out of the grid's
-  /// range are ignored and counted. Takes out the voxels that `clear_after` scans have seen
-  /// through.
+  /// range are ignored and counted, those that stand alone wait for a second hit. Takes out the
+  /// voxels that `clear_after` scans have seen through.
   void add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   /// Every `label_every` scans; never where only the map's output needs labels.
   bool labelDue() const;
@@ -62,6 +63,10 @@ class OccupiedVoxelMap {
   Eigen::Vector3d centroid(const VoxelIndex& v) const;
 
   size_t ignoredCentroids() const { return ignored_; }
+  /// Centroids left out because they stand alone and have not been confirmed.
+  size_t loneCentroids() const { return left_out_lone_; }
+  /// Centroids left out because the map is as large as `memory`.
+  size_t centroidsPastMemory() const { return left_out_full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
   /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
@@ -80,15 +85,22 @@ class OccupiedVoxelMap {
   };
   struct Sight;
 
-  void addInside(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
+  /// Makes centroids_ and voxels_ of those in range.
+  void setPoints(const std::vector<Eigen::Vector3d>& centroids);
+  /// Leaves in centroids_ and voxels_ the points whose voxel passes the test, in their order.
+  template <typename Test>
+  void keepPoints(const Test& test);
+  void leaveOutLone();
+  void leaveOutNew();
+  bool isBesideEstablished(const VoxelIndex& parent) const;
+  void addPoints(const Eigen::Vector3d& sensor);
   Eigen::Vector3d centroidOf(uint32_t slot, const VoxelIndex& v) const;
-  void addHits(const std::vector<Eigen::Vector3d>& centroids);
-  void addMoments(int level, const std::vector<Eigen::Vector3d>& centroids);
+  void addHits();
+  void addMoments(int level);
   /// A voxel that has its min_hits.
   void selectNew(int level, uint32_t slot);
   void markOccupied(const VoxelIndex& v);
-  void clearSeenThrough(const std::vector<Eigen::Vector3d>& centroids,
-                        const Eigen::Vector3d& sensor);
+  void clearSeenThrough(const Eigen::Vector3d& sensor);
   void lookThrough(const Sight& sight, const VoxelIndex& parent);
   bool isSeenThrough(const Sight& sight, uint32_t parent_slot, const Eigen::Vector3d& point) const;
   bool isHit(const VoxelIndex& v) const { return hit_grid_.find(v) != SlotGrid<8>::kNone; }
@@ -112,6 +124,10 @@ class OccupiedVoxelMap {
   uint32_t scans_ = 0;
   size_t ignored_ = 0;
   size_t cleared_count_ = 0;
+  size_t left_out_lone_ = 0;
+  size_t left_out_full_ = 0;
+  RecentVoxels lone_voxels_;
+  ScanNeighbours neighbours_;  // of the scan being added
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
   std::vector<uint32_t> free_hits_;  // slots of removed voxels
@@ -123,11 +139,24 @@ class OccupiedVoxelMap {
   std::array<std::vector<uint32_t>, kGaussianLevels> touched_;  // slots by level - 1, repeated
   std::array<double, kGaussianLevels> random_share_{};          // of the voxels of a level
   std::vector<BitGrid<8>> occupied_;                            // [0] is not used
-  std::vector<VoxelIndex> voxels_;          // of the scan being added, at level 0
-  std::vector<Eigen::Vector3f> to_sensor_;  // of the same, unit vectors
-  std::vector<uint32_t> slots_;             // of the same, at one level
-  std::vector<VoxelIndex> cleared_;         // by the scan being added
+  std::vector<Eigen::Vector3d> centroids_;                      // of the scan being added
+  std::vector<VoxelIndex> voxels_;                              // of the same, at level 0
+  std::vector<Eigen::Vector3f> to_sensor_;                      // of the same, unit vectors
+  std::vector<uint32_t> slots_;                                 // of the same, at one level
+  std::vector<VoxelIndex> cleared_;                             // by the scan being added
 };
+
+template <typename Test>
+void OccupiedVoxelMap::keepPoints(const Test& test) {
+  size_t kept = 0;
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    if (!test(voxels_[i])) continue;
+    voxels_[kept] = voxels_[i];
+    centroids_[kept++] = centroids_[i];
+  }
+  voxels_.resize(kept);
+  centroids_.resize(kept);
+}
 
 /// Centroids of the voxels of level 0, in the order of the voxels [m].
 std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels);

@@ -57,6 +57,12 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"map/clear_after", &c.map.clear_after, 0, 1000, "",
        "scans that must see through an occupied voxel, without a hit in between, before it leaves "
        "the map; 0: none leaves"},
+      {"map/confirm_within", &c.map.confirm_within, 0, 1000, "",
+       "scans within which a point that stands alone must be hit again to enter the map; 0: all "
+       "enter at once"},
+      {"map/memory", &c.map.memory, 1, kMaxCount, "MB",
+       "of the map while mapping; when it is reached, known voxels are kept up to date and no new "
+       "ones are added"},
       {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
        "'published' is hill climbing alone, for comparison"},
       {"matcher/coarsest_voxel", &c.matcher.coarsest_voxel, 0.1, 100, "m",

@@ -60,6 +60,102 @@ uint32_t surrounded(const uint64_t* candidates, int row, uint32_t targets, int n
   return kept;
 }
 
+/// Labels the voxels of one block.
+template <int kEdge>
+class BlockLabels {
+ public:
+  using Grid = BitGrid<kEdge>;
+  using Rows = std::array<uint32_t, BlockLayout<kEdge>::kRows>;
+
+  BlockLabels(const EdgeConfig& config, double support, bool count_sparse)
+      : paper_(config.mode == EdgeMode::kPaper),
+        taps_(kernel::paperTaps()),
+        thresholds_(thresholdsOf(config, support, count_sparse)),
+        label_block_(chooseKernel(config.instruction_set, kEdge)) {
+    if (count_sparse) paper_thresholds_.sparse = kSparse * kernel::kPaperPlane;
+  }
+
+  /// Sets `found`; the number of targets that are sparse.
+  size_t of(const Grid& occupied, const VoxelIndex& block, const typename Grid::Block& targets,
+            Rows& found) const {
+    Rows target;
+    std::copy(targets.begin(), targets.end(), target.begin());
+    if (paper_) {
+      const Neighbourhood<kEdge, kernel::kDenseHalo> rows(occupied, block);
+      return kernel::labelBlockDense<kEdge, double>(rows.data(), target.data(), found.data(), taps_,
+                                                    paper_thresholds_);
+    }
+    const Neighbourhood<kEdge, kernel::kHalo> rows(occupied, block);
+    return label_block_(rows.data(), target.data(), found.data(), thresholds_);
+  }
+
+ private:
+  bool paper_;
+  decltype(kernel::paperTaps()) taps_;
+  kernel::Thresholds thresholds_;
+  kernel::DenseThresholds paper_thresholds_;
+  kernel::LabelBlock label_block_;
+};
+
+/// What labelling says of a voxel with no other in reach: the same of all.
+class LoneLabel {
+ public:
+  template <int kEdge>
+  explicit LoneLabel(const BlockLabels<kEdge>& labels) {
+    BitGrid<kEdge> grid;
+    grid.set({});
+    typename BlockLabels<kEdge>::Rows found;
+    sparse_ = labels.of(grid, {}, grid.block(0), found) != 0;
+    edge_ = (found[0] & 1U) != 0;
+  }
+
+  /// Sets the edges of a block whose only voxel stands alone; the number of targets that are
+  /// sparse.
+  template <typename Block>
+  size_t set(const Block& targets, Block& edges) const {
+    size_t count = 0;
+    for (size_t row = 0; row < targets.size(); ++row) {
+      if (targets[row] == 0) continue;
+      count += sparse_ ? 1 : 0;
+      const auto others = edges[row] & ~targets[row];
+      edges[row] = static_cast<typename Block::value_type>(edge_ ? others | targets[row] : others);
+    }
+    return count;
+  }
+
+ private:
+  bool edge_;
+  bool sparse_;
+};
+
+/// Whether all blocks that a voxel of `block` sees within `reach` are empty but for the voxel.
+template <int kEdge>
+bool isAlone(const BitGrid<kEdge>& occupied, const VoxelIndex& block, int reach) {
+  const auto* bits = occupied.findBlock(block);
+  int count = 0;
+  int cell = 0;
+  for (size_t row = 0; row < bits->size() && count < 2; ++row) {
+    if ((*bits)[row] == 0) continue;
+    count += __builtin_popcount((*bits)[row]);
+    cell = static_cast<int>(row) * kEdge + __builtin_ctz((*bits)[row]);
+  }
+  if (count != 1) return false;
+  const int x = cell % kEdge;
+  const int y = cell / kEdge % kEdge;
+  const int z = cell / (kEdge * kEdge);
+  const auto first = [&](int at) { return at < reach ? -1 : 0; };
+  const auto last = [&](int at) { return at >= kEdge - reach ? 1 : 0; };
+  for (int dz = first(z); dz <= last(z); ++dz) {
+    for (int dy = first(y); dy <= last(y); ++dy) {
+      for (int dx = first(x); dx <= last(x); ++dx) {
+        const VoxelIndex beside{block.x + dx, block.y + dy, block.z + dz};
+        if (beside != block && occupied.findBlock(beside) != nullptr) return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int kEdge>
@@ -80,32 +176,24 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
   for (size_t slot = 0; slot < edge_slots.size(); ++slot) {
     edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
   }
-  const auto taps = kernel::paperTaps();
-  const auto thresholds = thresholdsOf(config_, support_, sparse != nullptr);
-  kernel::DenseThresholds paper_thresholds;
-  if (sparse != nullptr) paper_thresholds.sparse = kSparse * kernel::kPaperPlane;
   std::vector<size_t> sparse_of_block(targets.blockCount());
-  const auto label_block = chooseKernel(config_.instruction_set, kEdge);
+  const BlockLabels<kEdge> labels(config_, support_, sparse != nullptr);
+  const LoneLabel lone(labels);
+  const int reach = this->reach();
 
   parallelFor(targets.blockCount(), threads_, [&](size_t slot) {
-    constexpr int kRows = BlockLayout<kEdge>::kRows;
-    std::array<uint32_t, kRows> target;
-    std::array<uint32_t, kRows> found;
-    const auto& target_block = targets.block(slot);
-    std::copy(target_block.begin(), target_block.end(), target.begin());
     const VoxelIndex& block = targets.blockIndex(slot);
-    if (config_.mode == EdgeMode::kPaper) {
-      const Neighbourhood<kEdge, kernel::kDenseHalo> rows(occupied, block);
-      sparse_of_block[slot] = kernel::labelBlockDense<kEdge, double>(
-          rows.data(), target.data(), found.data(), taps, paper_thresholds);
-    } else {
-      const Neighbourhood<kEdge, kernel::kHalo> rows(occupied, block);
-      sparse_of_block[slot] = label_block(rows.data(), target.data(), found.data(), thresholds);
-    }
+    const auto& target = targets.block(slot);
     auto& edge_block = edges.block(edge_slots[slot]);
-    for (size_t row = 0; row < kRows; ++row) {
-      edge_block[row] = static_cast<typename Grid::Row>((edge_block[row] & ~target_block[row]) |
-                                                        (found[row] & target_block[row]));
+    if (isAlone(occupied, block, reach)) {
+      sparse_of_block[slot] = lone.set(target, edge_block);
+      return;
+    }
+    typename BlockLabels<kEdge>::Rows found;
+    sparse_of_block[slot] = labels.of(occupied, block, target, found);
+    for (size_t row = 0; row < found.size(); ++row) {
+      edge_block[row] = static_cast<typename Grid::Row>((edge_block[row] & ~target[row]) |
+                                                        (found[row] & target[row]));
     }
   });
   if (sparse != nullptr) {

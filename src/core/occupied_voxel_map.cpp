@@ -12,6 +12,7 @@ namespace {
 
 constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
 constexpr size_t kGaussianBytes = 48;
+constexpr size_t kMegabyte = 1000000;
 constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
 
 int levelCount(double voxel_size, double coarsest_voxel) {
@@ -57,6 +58,7 @@ OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, con
       config_(map),
       labeller_(mapLabeller(edges, edges.map_support, threads)),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
+      lone_voxels_(map.confirm_within),
       occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
   for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
 }
@@ -70,34 +72,34 @@ void OccupiedVoxelMap::insert(const std::vector<Eigen::Vector3d>& centroids,
 void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
                            const Eigen::Vector3d& sensor) {
   ++scans_;
-  voxels_.clear();
-  const auto is_inside = [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); };
-  if (std::all_of(centroids.begin(), centroids.end(), is_inside)) {
-    addInside(centroids, sensor);
-    return;
-  }
-  std::vector<Eigen::Vector3d> inside;
-  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(inside), is_inside);
-  ignored_ += centroids.size() - inside.size();
-  addInside(inside, sensor);
+  setPoints(centroids);
+  leaveOutLone();
+  if (bytes() >= static_cast<size_t>(config_.memory) * kMegabyte) leaveOutNew();
+  addPoints(sensor);
+}
+
+void OccupiedVoxelMap::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
+  centroids_.clear();
+  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(centroids_),
+               [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); });
+  ignored_ += centroids.size() - centroids_.size();
+  const double inverse_size = 1.0 / voxel_size_;
+  voxels_.resize(centroids_.size());
+  std::transform(centroids_.begin(), centroids_.end(), voxels_.begin(),
+                 [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
 }
 
 /// One pass a level and a step: short loops over memory that do not wait for one another.
-void OccupiedVoxelMap::addInside(const std::vector<Eigen::Vector3d>& centroids,
-                                 const Eigen::Vector3d& sensor) {
-  const double inverse_size = 1.0 / voxel_size_;
-  voxels_.resize(centroids.size());
-  to_sensor_.resize(centroids.size());
-  slots_.resize(centroids.size());
-  std::transform(centroids.begin(), centroids.end(), voxels_.begin(),
-                 [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
-  std::transform(centroids.begin(), centroids.end(), to_sensor_.begin(),
+void OccupiedVoxelMap::addPoints(const Eigen::Vector3d& sensor) {
+  to_sensor_.resize(centroids_.size());
+  slots_.resize(centroids_.size());
+  std::transform(centroids_.begin(), centroids_.end(), to_sensor_.begin(),
                  [&](const Eigen::Vector3d& c) -> Eigen::Vector3f {
                    return (sensor - c).cast<float>().normalized();
                  });
-  addHits(centroids);
-  for (int l = 1; l <= kGaussianLevels; ++l) addMoments(l, centroids);
-  if (config_.clear_after > 0) clearSeenThrough(centroids, sensor);
+  addHits();
+  for (int l = 1; l <= kGaussianLevels; ++l) addMoments(l);
+  if (config_.clear_after > 0) clearSeenThrough(sensor);
   for (GaussianLevel& g : gaussians_) g.updateSelected();
 }
 
@@ -106,7 +108,7 @@ bool OccupiedVoxelMap::labelDue() const {
          scans_ % static_cast<uint32_t>(config_.label_every) == 0;
 }
 
-void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
+void OccupiedVoxelMap::addHits() {
   for (size_t i = 0; i < voxels_.size(); ++i) {
     const uint32_t next =
         free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
@@ -116,7 +118,7 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
     Hit& hit = hits_[slots_[i]];
-    const Eigen::Vector3f d = (centroids[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
+    const Eigen::Vector3f d = (centroids_[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
     for (size_t k = 0; k < 3; ++k) hit.sum[k] += d[static_cast<Eigen::Index>(k)];
     ++hit.count;
     if (hit.last_scan == scans_) continue;
@@ -129,7 +131,7 @@ void OccupiedVoxelMap::addHits(const std::vector<Eigen::Vector3d>& centroids) {
   }
 }
 
-void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& centroids) {
+void OccupiedVoxelMap::addMoments(int l) {
   GaussianLevel& g = level(l);
   for (size_t i = 0; i < voxels_.size(); ++i) {
     const VoxelIndex v = coarser(voxels_[i], l);
@@ -137,7 +139,7 @@ void OccupiedVoxelMap::addMoments(int l, const std::vector<Eigen::Vector3d>& cen
     if (l == 1 && g.cell(slots_[i]).hits == 0) markOccupied(v);
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (!g.add(slots_[i], centroids[i], to_sensor_[i], scans_)) continue;
+    if (!g.add(slots_[i], centroids_[i], to_sensor_[i], scans_)) continue;
     touch(l, slots_[i]);
     if (g.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
   }
@@ -260,6 +262,10 @@ void OccupiedVoxelMap::clear() {
   scans_ = 0;
   ignored_ = 0;
   cleared_count_ = 0;
+  left_out_lone_ = 0;
+  left_out_full_ = 0;
+  lone_voxels_.clear();
+  neighbours_ = {};
   hit_grid_ = {};
   hits_ = {};
   free_hits_ = {};
@@ -296,7 +302,8 @@ size_t OccupiedVoxelMap::packedBytes() const {
 
 size_t OccupiedVoxelMap::bytes() const {
   size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
-                 edge_candidates_.bytes() + edge_voxels_.bytes() + changed_.bytes();
+                 edge_candidates_.bytes() + edge_voxels_.bytes() + changed_.bytes() +
+                 lone_voxels_.bytes() + neighbours_.bytes();
   for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
   return bytes;

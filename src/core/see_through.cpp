@@ -54,13 +54,12 @@ struct OccupiedVoxelMap::Sight {
   }
 };
 
-void OccupiedVoxelMap::clearSeenThrough(const std::vector<Eigen::Vector3d>& centroids,
-                                        const Eigen::Vector3d& sensor) {
+void OccupiedVoxelMap::clearSeenThrough(const Eigen::Vector3d& sensor) {
   const double inverse_size = 1.0 / voxelSize(1);
-  const size_t stride = 1 + centroids.size() / (kLines + 1);
+  const size_t stride = 1 + centroids_.size() / (kLines + 1);
   cleared_.clear();
-  for (size_t i = scans_ % stride; i < centroids.size(); i += stride) {
-    const Sight sight(sensor, centroids[i]);
+  for (size_t i = scans_ % stride; i < centroids_.size(); i += stride) {
+    const Sight sight(sensor, centroids_[i]);
     const double reach = sight.length - kBehind * voxel_size_;
     if (!(reach > 0)) continue;
     forEachOnLine(occupied_[1], sensor * inverse_size,

@@ -362,6 +362,36 @@ TEST(Extractor, FlagsTheScanVoxelsInEdgeVoxelsOfTheMapsSize) {
   }
 }
 
+/// Voxels far apart, some with another one at the end of their reach or beyond, on block borders
+/// too.
+Voxels scatteredVoxels(Random& random) {
+  Voxels voxels;
+  for (int32_t i = 0; i < 60; ++i) {
+    const VoxelIndex v = random.voxelIn(0, 15) + VoxelIndex{48 * (i % 8), 48 * (i / 8), 0};
+    voxels.push_back(v);
+    if (i % 3 == 0) voxels.push_back(v + random.voxelIn(-4, 4));
+  }
+  return sorted(voxels);
+}
+
+TEST(Extractor, LabelsVoxelsThatStandAloneByTheDefinition) {
+  Random random(15);
+  for (const EdgeMode mode : {EdgeMode::kDefault, EdgeMode::kPaper}) {
+    for (const double support : {kNoSupport, 0.35}) {
+      EdgeConfig config;
+      config.mode = mode;
+      config.magnitude = 0.001;  // so that there are edges among them
+      Scene scene;
+      scene.voxels = scatteredVoxels(random);
+      const ReferenceExtractor reference(scene.voxels);
+      const Voxels expected =
+          mode == EdgeMode::kPaper ? reference.paperEdges() : reference.edges(config, support);
+      EXPECT_TRUE(sameVoxels(expected, voxelsOf(edgesOf(scene, config, support))));
+      if (mode == EdgeMode::kDefault && support == kNoSupport) EXPECT_GT(expected.size(), 20U);
+    }
+  }
+}
+
 TEST(Extractor, AnEmptyScanHasNoEdges) {
   VoxelScan scan;
   const EdgeCount count = EdgeExtractor(kDefaults, 1).extract(scan);

@@ -343,7 +343,9 @@ TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
 
 TEST(OutOfRange, VoxelsNearTheLimitAreKept) {
   const double near = (kIndexLimit - 2) * kSize;
-  OccupiedVoxelMap map = makeMap(withLabelEvery(1));
+  MapConfig config;
+  config.confirm_within = 0;
+  OccupiedVoxelMap map = makeMap(config);
   for (int scan = 0; scan < 2; ++scan)
     map.insert({{near, near, near}, {-near, -near, -near}}, farSensor());
   EXPECT_EQ(0U, map.ignoredCentroids());
