@@ -58,7 +58,9 @@ struct ScanPrior {
   /// At the stamp, in any smooth frame, for the prediction; without it the velocity is taken as
   /// constant.
   std::optional<Pose> T_odom_sensor;
-  /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame.
+  /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame. Of a
+  /// place farther from the origin than half the grid's range (100 km at 20 cm) only the rotation
+  /// counts: the map's origin is at the sensor then.
   Pose T_map_first = Pose::Identity();
 };
 
@@ -101,6 +103,7 @@ class Mapper {
     std::optional<Pose> T_odom_sensor;
   };
 
+  Pose firstPose(const ScanPrior& prior) const;
   void forgetMotion();
   void align(const VoxelScan& scan, const SweepTime& sweep, Located& now, ScanResult& result);
   void advance(const VoxelScan& scan, const Located& now);

@@ -37,9 +37,11 @@ struct MatchResult {
   int matches = 0;         ///< points with a Gaussian in the last refinement step
   double fit = 0.0;        ///< mean robust weight of the refined points, 0 where there is no match
   int restarts = 0;
+  uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
   /// Of the last step, on (translation, rotation vector about the sensor), in the map's axes.
   Matrix6 information = Matrix6::Zero();
-  bool accepted = false;  ///< hit_ratio >= required_hit_ratio, and near enough to the guess
+  /// hit_ratio >= required_hit_ratio, near enough to the guess, and in the grid's range
+  bool accepted = false;
 };
 
 /// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
@@ -53,7 +55,8 @@ class Matcher {
   size_t sampleSize() const;
   size_t refinePoints(const ScanSample& sample) const;
 
-  /// From the guess alone, then from restarts around it until one is accepted.
+  /// From the guess alone, then from restarts around it until one is accepted or the work is too
+  /// much.
   MatchResult match(const OccupiedVoxelMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
   /// From the guess alone.
@@ -62,8 +65,12 @@ class Matcher {
 
   /// The discrete search alone, with the first `points` of the sample.
   Pose search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
-              const Pose& guess) const;
-  /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set.
+              const Pose& guess) const {
+    uint64_t look_ups = 0;
+    return search(map, sample, points, guess, look_ups);
+  }
+  /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set. It ends
+  /// where the pose leaves the grid's range.
   MatchResult refine(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& guess,
                      int coarsest, bool all_voxels) const;
   /// Of the first `points` of a sample the fraction in occupied voxels of level 1, of those in
@@ -73,6 +80,8 @@ class Matcher {
                          const Pose& T_map_sensor);
 
  private:
+  Pose search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+              const Pose& guess, uint64_t& look_ups) const;
   MatchResult verified(const OccupiedVoxelMap& map, const ScanSample& sample,
                        const MatchRequest& request, MatchResult result) const;
   void restart(const OccupiedVoxelMap& map, const ScanSample& sample, const MatchRequest& request,

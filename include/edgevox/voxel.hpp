@@ -66,6 +66,11 @@ inline bool inGridRange(const Eigen::Vector3d& point, double voxel_size) {
   return (point.array().abs() < (kIndexLimit - 1) * voxel_size).all();
 }
 
+/// The same for where a pose puts the origin; false if any of it is not finite.
+inline bool inGridRange(const Pose& pose, double voxel_size) {
+  return pose.matrix().allFinite() && inGridRange(Eigen::Vector3d(pose.translation()), voxel_size);
+}
+
 /// 21 bits an axis; unique for indices in the grid range.
 inline uint64_t packedIndex(const VoxelIndex& v) {
   const auto bits = [](int32_t i) { return static_cast<uint64_t>(i + kIndexLimit); };

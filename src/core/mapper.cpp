@@ -100,7 +100,7 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
     return result;
   }
   const SweepTime sweep = sweepTime(scan);
-  Located now{scan.stamp + sweep.middle(), prior.T_map_first, prior.T_odom_sensor};
+  Located now{scan.stamp + sweep.middle(), firstPose(prior), prior.T_odom_sensor};
   if (map_.empty()) {
     result.status = ScanStatus::kFirst;
   } else {
@@ -117,6 +117,13 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   result.T_map_sensor = T_map_sensor_;
   insert(scan, sweep, result);
   return result;
+}
+
+/// UTM coordinates, for example, are too far from their origin for a grid.
+Pose Mapper::firstPose(const ScanPrior& prior) const {
+  Pose pose = prior.T_map_first;
+  if (!inGridRange(pose, config_.voxel_size / 2)) pose.translation().setZero();
+  return pose;
 }
 
 void Mapper::forgetMotion() {
@@ -142,6 +149,7 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   if (last_) twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
   const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
                                        now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
+  if (!inGridRange(refined.T_map_sensor, config_.voxel_size)) return;  // it ran away
   now.T_map_sensor = refined.T_map_sensor;
   result.covariance = covarianceOf(refined.information);
 }

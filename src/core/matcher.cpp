@@ -16,9 +16,10 @@ namespace {
 constexpr int kCandidates = 4;            // for each point refined: most have no anchor beside them
 constexpr double kRestartDistance = 1.0;  // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
-constexpr double kTrustedStep = 1.0;                   // of a refinement alone [voxel of level 1]
-constexpr double kNearStep = 0.25;    // after which other points may be near [voxel]
-constexpr double kLeastKnown = 0.25;  // of a sample
+constexpr uint64_t kMostLookUps = 12000000;  // of a match; four times what a found one needed
+constexpr double kTrustedStep = 1.0;        // of a refinement alone [voxel of level 1]
+constexpr double kNearStep = 0.25;          // after which other points may be near [voxel]
+constexpr double kLeastKnown = 0.25;        // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
 constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
@@ -52,6 +53,13 @@ int score(const OccupiedVoxelMap& map, int level, const ScanSample& sample, size
     hits += occupied.test(voxelAt(p, 1.0)) ? 1 : 0;
   }
   return hits;
+}
+
+/// Whether the points of a sample, seen from a pose in the grid's range, have indices of voxels.
+bool isInGridRange(const OccupiedVoxelMap& map, const ScanSample& sample) {
+  return std::all_of(sample.begin(), sample.end(), [&](const Eigen::Vector3d& point) {
+    return inGridRange(point, map.voxelSize(0));
+  });
 }
 
 /// Steepest ascent over `moves` until none gains; ties go to the earlier move.
@@ -138,11 +146,13 @@ struct NearPoint {
 
 /// The first `wanted` points of the sample that have a voxel to match at this pose.
 std::vector<NearPoint> pointsNear(const GaussianLevel& level, const ScanSample& sample,
-                                  size_t wanted, const Pose& pose, bool all_voxels) {
+                                  size_t wanted, const Pose& pose, bool all_voxels,
+                                  uint64_t& look_ups) {
   std::vector<NearPoint> near;
   near.reserve(wanted);
   for (const Eigen::Vector3d& point : sample) {
     if (near.size() == wanted) break;
+    ++look_ups;
     const Eigen::Vector3f in_map = (pose * point).cast<float>();
     const auto around = level.around(level.voxelOf(in_map), all_voxels);
     if (around.count > 0) near.push_back({point, around});
@@ -210,7 +220,8 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
 MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
-  if (!result.accepted) restart(map, sample, request, result);
+  const bool possible = inGridRange(request.guess, map.voxelSize(0)) && isInGridRange(map, sample);
+  if (!result.accepted && possible) restart(map, sample, request, result);
   return result;
 }
 
@@ -218,6 +229,8 @@ MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample
 MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result;
+  result.T_map_sensor = request.guess;
+  if (!inGridRange(request.guess, map.voxelSize(0)) || !isInGridRange(map, sample)) return result;
   if (config_.mode == MatcherMode::kPublished) {
     result.T_map_sensor = climbAsPublished(map, sample, request.guess);
     return verified(map, sample, request, result);
@@ -235,7 +248,9 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
     return result;
   }
   const auto points = static_cast<size_t>(config_.search_points);
-  const MatchResult searched = refineFrom(search(map, sample, points, request.guess));
+  uint64_t look_ups = result.look_ups;
+  MatchResult searched = refineFrom(search(map, sample, points, request.guess, look_ups));
+  result.look_ups = searched.look_ups += look_ups;
   if (!searched.accepted && result.accepted) return result;
   if (searched.accepted && !result.accepted) return searched;
   return searched.fit > result.fit ? searched : result;
@@ -243,6 +258,7 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
 
 MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
+  if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
   const Pose moved = request.guess.inverse() * result.T_map_sensor;
   const double distance = std::max(moved.translation().norm() / request.farthest,
                                    rotationAngle(moved) / request.widest);
@@ -261,31 +277,38 @@ void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
   };
   const auto all_points = static_cast<size_t>(config_.search_points);
   uint64_t state = mixBits(request.seed + 1);
+  uint64_t look_ups = best.look_ups;
   int best_score = coarseScore(best.T_map_sensor);
-  for (int i = 1; i <= config_.max_restarts && !best.accepted; ++i) {
+  for (int i = 1; i <= config_.max_restarts && !best.accepted && look_ups < kMostLookUps; ++i) {
     const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
     const Pose start = disturbed(request.guess, request.reach * growth, state);
-    const Pose found = search(map, sample, points, start);
+    const Pose found = search(map, sample, points, start, look_ups);
     best.restarts = i;
     if (coarseScore(found) <= best_score) continue;
-    MatchResult candidate = verified(map, sample, request,
-                                     refine(map, sample, search(map, sample, all_points, found),
-                                            OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
+    MatchResult candidate =
+        verified(map, sample, request,
+                 refine(map, sample, search(map, sample, all_points, found, look_ups),
+                        OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
+    look_ups += candidate.look_ups;
     candidate.restarts = i;
     if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
     best = candidate;
     best_score = coarseScore(best.T_map_sensor);
   }
+  best.look_ups = look_ups;
 }
 
 Pose Matcher::search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
-                     const Pose& guess) const {
+                     const Pose& guess, uint64_t& look_ups) const {
   const size_t count = prefix(sample, points);
   if (count == 0) return guess;
   const double range = std::max(medianRange(sample, count), map.voxelSize(1));
   Pose pose = guess;
   for (int level = map.levels() - 1; level >= kFinestSearchLevel; --level) {
-    const auto scoreOf = [&](const Pose& p) { return score(map, level, sample, count, p); };
+    const auto scoreOf = [&](const Pose& p) {
+      look_ups += count;
+      return score(map, level, sample, count, p);
+    };
     const double size = map.voxelSize(level);
     int best = scoreOf(pose);
     for (const double step : {size, size / 2}) {
@@ -308,10 +331,11 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
     Pose near_pose;
     for (int step = 0; step < kRefineSteps[level]; ++step) {
       if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {
-        near = pointsNear(map.gaussians(level), sample, wanted, pose, all_voxels);
+        near = pointsNear(map.gaussians(level), sample, wanted, pose, all_voxels, result.look_ups);
         near_pose = pose;
       }
       const auto equations = linearise(map.gaussians(level), near, pose, all_voxels);
+      result.look_ups += near.size();
       result.matches = equations.matches;
       result.information = equations.h;
       result.fit = equations.weight / static_cast<double>(wanted);
@@ -319,6 +343,7 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
       const Move move = -equations.h.ldlt().solve(equations.b);
       if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
       pose = apply(pose, move);
+      if (!inGridRange(pose, map.voxelSize(0))) return result;
       if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
         break;
       }

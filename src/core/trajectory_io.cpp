@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "edgevox/atomic_file.hpp"
+#include "edgevox/number_text.hpp"
 
 namespace edgevox {
 namespace {
@@ -96,11 +96,10 @@ std::string tumText(const Trajectory& trajectory) {
     const Eigen::Vector3d t = stamped.pose.translation();
     Eigen::Quaterniond q = Eigen::Quaterniond(stamped.pose.linear()).normalized();
     if (q.w() < 0) q.coeffs() = -q.coeffs();
-    std::array<char, 320> line;
-    const int length =
-        std::snprintf(line.data(), line.size(), "%.6f %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
-                      stamped.stamp, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
-    text.append(line.data(), static_cast<size_t>(length));
+    text += fixedText(stamped.stamp, 6);
+    for (const double value : {t.x(), t.y(), t.z()}) text += " " + fixedText(value, 9);
+    for (const double value : {q.x(), q.y(), q.z(), q.w()}) text += " " + fixedText(value, 12);
+    text += "\n";
   }
   return text;
 }

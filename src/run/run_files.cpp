@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
 #include "edgevox/atomic_file.hpp"
+#include "edgevox/number_text.hpp"
 #include "edgevox/statistics.hpp"
 #include "run/map_files.hpp"
 
@@ -23,9 +23,7 @@ constexpr double kMilliseconds = 1e3;  // in a second
 
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "";
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  return fixedText(value, decimals);
 }
 
 template <typename Seconds>

@@ -184,6 +184,37 @@ TEST(Odometry, BridgesWhatAConstantVelocityCannot) {
   }
 }
 
+TEST(Odometry, ThatIsAbsurdLosesItsScanAndNoOther) {
+  for (const double absurd : {1e6, 1e8, 1e12, 1e80, 1e300, std::nan("")}) {
+    Mapper mapper{Config{}};
+    for (size_t i = 0; i < 12; ++i) {
+      ScanPrior prior;
+      prior.T_odom_sensor = walk().truth[i].pose;
+      if (i == 8) prior.T_odom_sensor->translation().x() = absurd;
+      const MapState before(mapper);
+      const ScanResult result = mapper.process(scans()[i], prior);
+      EXPECT_EQ(i != 8, result.located()) << i << " with " << absurd;
+      EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
+      if (i == 8) EXPECT_TRUE(before == MapState(mapper));
+      if (i > 8) EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+    }
+  }
+}
+
+TEST(Odometry, OfUtmCoordinatesStartsTheMapAtTheSensor) {
+  Pose T_odom_map(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()));
+  T_odom_map.translation() = Eigen::Vector3d(691000, 5335000, 515);
+  Mapper mapper{Config{}};
+  const Pose T_map_first(T_odom_map.rotation());
+  for (size_t i = 0; i < 10; ++i) {
+    const Pose T_odom_sensor = T_odom_map * walk().truth[i].pose;
+    const ScanResult result = mapper.process(scans()[i], {T_odom_sensor, T_odom_sensor});
+    ASSERT_TRUE(result.located());
+    EXPECT_LT(differenceOf(T_map_first * walk().truth[i].pose, result.T_map_sensor).metres, 0.03);
+  }
+  EXPECT_GT(mapper.map().hitVoxels().voxelCount(), 1000U);
+}
+
 /// Scan i, `seconds` later.
 VoxelScan shifted(size_t i, double seconds) {
   VoxelScan scan = scans()[i];

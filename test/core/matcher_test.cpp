@@ -305,6 +305,63 @@ TEST(Match, IsTheSameEveryTime) {
   EXPECT_EQ(0, std::memcmp(a.information.data(), b.information.data(), 36 * sizeof(double)));
 }
 
+TEST(Match, OfRandomPointsHasAnEnd) {
+  const MappedRoom& room = mappedRoom();
+  MatchRequest request;
+  request.guess = room.truth;
+  request.required_hit_ratio = 0.99;
+  request.reach = 4.0;
+  request.all_voxels = true;
+  const ScanSample random =
+      sampleOf(voxelScans({randomSweep(5, 0.0, 100000)}, room.config)[0], 12000);
+  const MatchResult result = room.matcher().match(room.map, random, request);
+  RecordProperty("look_ups", static_cast<int>(result.look_ups));
+  EXPECT_FALSE(result.accepted);
+  EXPECT_GT(result.restarts, 5);
+  EXPECT_LT(result.look_ups, 13000000U);
+}
+
+TEST(Match, BesideTheGridIsNone) {
+  const MappedRoom& room = mappedRoom();
+  const double nan = std::nan("");
+  for (const MatcherMode mode : {MatcherMode::kRefined, MatcherMode::kPublished}) {
+    MatcherConfig config;
+    config.mode = mode;
+    for (const double absurd : {2e5, 1e12, -1e80, 1e300, nan}) {
+      MatchRequest request;
+      request.guess = room.truth;
+      request.guess.translation().y() = absurd;
+      EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted) << absurd;
+      request.guess = room.truth;
+      ScanSample sample = room.sample;
+      sample[sample.size() / 2].z() = absurd;
+      EXPECT_FALSE(Matcher(config).match(room.map, sample, request).accepted) << absurd;
+    }
+    MatchRequest request;
+    request.guess = room.truth;
+    request.guess.linear()(1, 2) = nan;
+    EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted);
+  }
+}
+
+TEST(Refinement, EndsWhereItLeavesTheGrid) {
+  const MappedRoom& room = mappedRoom();
+  const double limit = kIndexLimit * room.config.voxel_size;
+  OccupiedVoxelMap map(room.config.voxel_size, 3.2, room.config.map, room.config.edges, 1);
+  std::vector<Vector3d> wall;  // at the limit
+  for (int i = 0; i < 400; ++i) wall.emplace_back(limit - 0.25, 0.05 * (i / 20), 0.05 * (i % 20));
+  for (int i = 0; i < 3; ++i) map.insert(wall, {0, 0, 0});
+  map.label();
+  map.prepareAll();
+  ScanSample sample = wall;
+  for (Vector3d& point : sample) point.x() -= limit - 5;
+  Pose guess = Pose::Identity();
+  guess.translation().x() = limit - 5.0 + 0.2;
+  const MatchResult result = room.matcher().refine(map, sample, guess, kLevels, true);
+  EXPECT_GT(result.matches, 100);
+  EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
+}
+
 TEST(Match, OfNothingIsHarmless) {
   const MappedRoom& room = mappedRoom();
   MatchRequest request;

@@ -111,6 +111,23 @@ TEST(Tum, textIsFixed) {
             "0.000000000000 0.000000000000 0.000000000000 1.000000000000\n");
 }
 
+TEST(Tum, numbersOfAnySizeAreWhole) {
+  Trajectory written(3);
+  for (size_t i = 0; i < written.size(); ++i) {
+    written[i].stamp = std::pow(10.0, 100.0 * static_cast<double>(i + 1));
+    written[i].pose.translation() = Eigen::Vector3d(-1e300, 1e299, std::pow(10.0, -300));
+  }
+  const std::string text = tumText(written);
+  std::istringstream in(text);
+  const Trajectory read = parseTum(in, "text");
+  ASSERT_EQ(read.size(), written.size());
+  for (size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].stamp, written[i].stamp);
+    EXPECT_EQ(read[i].pose.translation().x(), written[i].pose.translation().x());
+    EXPECT_EQ(read[i].pose.translation().y(), written[i].pose.translation().y());
+  }
+}
+
 TEST(AtomicFile, replacesTheFileAndLeavesNothingElse) {
   const test::TempFolder folder;
   writeFile(folder / "file", "first");
