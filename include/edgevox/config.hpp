@@ -30,6 +30,8 @@ enum class InstructionSet { kAuto, kPortable, kAvx2 };
 struct VoxelizerConfig {
   double min_range = 0.5;    ///< [m]
   double max_range = 120.0;  ///< [m]
+  int max_points = 5000000;  ///< of a cloud that is read
+  int max_voxels = 300000;   ///< of a scan
 };
 
 struct EdgeConfig {

@@ -23,6 +23,7 @@ enum class ScanStatus {
   kLost,      ///< no match was good enough; the map and the pose are as before
   kStale,     ///< not later than the last located scan; not used
   kTooFew,    ///< too few occupied voxels; not used
+  kTooLarge,  ///< more points or voxels than allowed; not used
 };
 const char* name(ScanStatus status);
 

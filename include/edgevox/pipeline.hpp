@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "edgevox/config.hpp"
 #include "edgevox/edge_extractor.hpp"
 #include "edgevox/mapper.hpp"
@@ -16,6 +18,7 @@ struct PipelineResult {
   size_t points = 0;
   size_t scan_voxels = 0;
   DroppedPoints dropped;
+  std::string too_large;  ///< see VoxelScan
   EdgeCount edges;        ///< of the scan
   double voxelize = 0.0;  ///< [s]
   double extract = 0.0;   ///< [s]

@@ -136,6 +136,8 @@ struct VoxelScan {
   std::vector<ScanVoxel> voxels;
   uint64_t points_read = 0;
   DroppedPoints dropped;
+  /// Why the cloud was given up, and what to do; then there are no voxels. Empty: it was not.
+  std::string too_large;
 };
 
 }  // namespace edgevox

@@ -40,13 +40,17 @@ struct CloudView {
   TimeField time;
 };
 
+/// Says that a scan has more voxels than VoxelizerConfig::max_voxels, and what to do.
+std::string tooManyVoxelsText(const VoxelizerConfig& config);
+
 /// View of tightly packed points, without times.
 CloudView viewOf(const std::vector<Eigen::Vector3f>& points, double stamp, std::string frame);
 
 /// Turns clouds into occupied voxels of half the map's voxel size. Voxels of a block follow one
 /// another, blocks in order of their first point, voxels likewise, so that all later stages walk
 /// through memory. Keeps its memory from cloud to cloud. Points that are not finite, out of
-/// range or kIndexLimit voxels away are dropped and counted.
+/// range or kIndexLimit voxels away are dropped and counted. A cloud of more points or voxels than
+/// the configuration allows is given up, see VoxelScan::too_large.
 class Voxelizer {
  public:
   /// `map_voxel_size` [m]
@@ -97,8 +101,9 @@ class Voxelizer {
   double farthest() const;  ///< [m]
   void countDropped(const Eigen::Vector3d& point, DroppedPoints& dropped) const;
   uint32_t slotOf(uint64_t corner);
-  void sortRuns();
-  void collect(VoxelScan& scan);
+  /// False if there are more blocks.
+  bool sortRuns(size_t max_blocks);
+  void collect(size_t max_voxels, VoxelScan& scan);
   void sumPoints(const Span& span);
   void finishBlock(const VoxelIndex& block, VoxelScan& scan);
 

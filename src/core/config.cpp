@@ -22,6 +22,7 @@ Choice choiceOf(Enum& value, std::vector<std::string> words) {
 
 std::vector<Parameter> parametersOf(Config& c) {
   constexpr int kMaxCount = 1000000;
+  constexpr int kMaxLarge = 1000000000;
   return {
       {"voxel_size", &c.voxel_size, 0.01, 10, "m",
        "finest voxel of the map; scans are voxelized at half of it"},
@@ -29,6 +30,10 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"voxelizer/min_range", &c.voxelizer.min_range, 0, 1000, "m", "nearer points are dropped"},
       {"voxelizer/max_range", &c.voxelizer.max_range, 0.1, 10000, "m",
        "farther points are dropped"},
+      {"voxelizer/max_points", &c.voxelizer.max_points, 1, kMaxLarge, "",
+       "a cloud of more points is refused: bounds the memory"},
+      {"voxelizer/max_voxels", &c.voxelizer.max_voxels, 50, kMaxLarge, "",
+       "a scan of more voxels is refused: bounds the memory"},
       {"edges/mode", choiceOf(c.edges.mode, {"default", "paper"}), 0, 0, "",
        "'paper' is the extractor exactly as published; no other parameter of edges applies to it"},
       {"edges/magnitude", &c.edges.magnitude, 0.001, 1, "",

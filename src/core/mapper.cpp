@@ -50,6 +50,8 @@ const char* name(ScanStatus status) {
       return "stale";
     case ScanStatus::kTooFew:
       return "too_few";
+    case ScanStatus::kTooLarge:
+      return "too_large";
   }
   return "";
 }
@@ -94,6 +96,11 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
     result.clock_jumped = true;
     config_.mapper.after_clock_jump == AfterClockJump::kClearMap ? reset() : forgetMotion();
     result.T_map_sensor = T_map_sensor_;
+  }
+  if (!scan.too_large.empty() ||
+      scan.voxels.size() > static_cast<size_t>(config_.voxelizer.max_voxels)) {
+    result.status = ScanStatus::kTooLarge;
+    return result;
   }
   if (scan.voxels.size() < kFewestVoxels) {
     result.status = ScanStatus::kTooFew;

@@ -30,6 +30,7 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   result.points = scan.points_read;
   result.scan_voxels = scan.voxels.size();
   result.dropped = scan.dropped;
+  result.too_large = scan.too_large;
   return result;
 }
 

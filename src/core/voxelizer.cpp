@@ -112,6 +112,12 @@ inline void setMeans(const Eigen::Vector4f& sum, double voxel_size, ScanVoxel& v
 
 }  // namespace
 
+std::string tooManyVoxelsText(const VoxelizerConfig& config) {
+  return "it has more than " + std::to_string(config.max_voxels) +
+         " voxels; choose a larger voxel_size or a smaller voxelizer/max_range, or, with memory to "
+         "spare, a larger voxelizer/max_voxels";
+}
+
 CloudView viewOf(const std::vector<Eigen::Vector3f>& points, double stamp, std::string frame) {
   CloudView view;
   view.stamp = stamp;
@@ -268,6 +274,14 @@ VoxelScan Voxelizer::voxelize(const CloudView& cloud) {
   scan.number = scans_++;
   scan.voxel_size = voxel_size_;
   scan.points_read = cloud.width * cloud.height;
+  const auto max_voxels = static_cast<size_t>(config_.max_voxels);
+  if (scan.points_read > static_cast<size_t>(config_.max_points)) {
+    scan.too_large = "it has " + std::to_string(scan.points_read) + " points, more than " +
+                     std::to_string(config_.max_points) +
+                     "; thin the clouds in the driver or, with memory to spare, choose a larger "
+                     "voxelizer/max_points";
+    return scan;
+  }
   table_.clear();
   blocks_.clear();
   points_.resize(scan.points_read);
@@ -276,8 +290,8 @@ VoxelScan Voxelizer::voxelize(const CloudView& cloud) {
 
   cloud.xyz_type == Scalar::kFloat64 ? readCloud<double>(cloud, scan)
                                      : readCloud<float>(cloud, scan);
-  sortRuns();
-  collect(scan);
+  if (sortRuns(max_voxels)) collect(max_voxels, scan);
+  if (scan.voxels.empty() && blocks_.size() > 0) scan.too_large = tooManyVoxelsText(config_);
   return scan;
 }
 
@@ -325,9 +339,10 @@ uint32_t Voxelizer::slotOf(uint64_t corner) {
   return hint;
 }
 
-void Voxelizer::sortRuns() {
+bool Voxelizer::sortRuns(size_t max_blocks) {
   for (uint32_t i = 0; i < run_count_; ++i) {
     runs_[i].block = slotOf(runs_[i].corner);
+    if (blocks_.size() > max_blocks) return false;
     ++blocks_[runs_[i].block].end;
   }
   uint32_t begin = 0;
@@ -341,9 +356,11 @@ void Voxelizer::sortRuns() {
   for (uint32_t i = 0; i < run_count_; ++i) {
     sorted_[blocks_[runs_[i].block].end++] = {runs_[i].begin, runs_[i + 1].begin};
   }
+  return true;
 }
 
-void Voxelizer::collect(VoxelScan& scan) {
+/// Leaves no voxels if there are more than allowed.
+void Voxelizer::collect(size_t max_voxels, VoxelScan& scan) {
   constexpr size_t kAhead = 16;  // spans whose points are fetched before they are summed
   scan.voxels.reserve(std::max<size_t>(point_count_ / 2, last_voxels_ + last_voxels_ / 8));
   size_t i = 0;
@@ -353,6 +370,9 @@ void Voxelizer::collect(VoxelScan& scan) {
       sumPoints(sorted_[i]);
     }
     finishBlock(table_.block(block), scan);
+    if (scan.voxels.size() <= max_voxels) continue;
+    scan.voxels = {};
+    break;
   }
   last_voxels_ = scan.voxels.size();
 }

@@ -65,7 +65,9 @@ Trajectory referenceOf(const Recording& recording) {
 }
 
 Eigen::Vector3d direction(sim::Random& random) {
-  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+  const double z = random.normal();
+  const double y = random.normal();
+  return Eigen::Vector3d(random.normal(), y, z).normalized();
 }
 
 /// How often the pose of a scan is found from a wrong guess, with restarts, verified as while

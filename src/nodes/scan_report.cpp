@@ -37,6 +37,10 @@ std::string adviceOn(const ScanResult& result) {
              "driver's stamps stand still or two drivers publish on one topic";
     case ScanStatus::kTooFew:
       return "it has too few voxels to be matched; is the sensor covered, or min_range too large?";
+    case ScanStatus::kTooLarge:
+      return "it has more voxels than voxelizer/max_voxels; choose a larger voxel_size or a "
+             "smaller "
+             "voxelizer/max_range";
     default:
       return "";
   }

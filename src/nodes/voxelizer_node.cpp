@@ -28,6 +28,7 @@ void VoxelizerNode::process(const Input::Arrival& arrival) {
   if (!cloud.note.empty()) log_.warn("note", cloud.note);
   StageTimer timer(Clock::kWall);
   const VoxelScan scan = voxelizer_.voxelize(cloud.view);
+  if (!scan.too_large.empty()) return refuse(arrival, {CloudFault::kTooLarge, scan.too_large});
   publish(scan, arrival, cloud, timer.lap());
 }
 

@@ -248,6 +248,8 @@ const char* name(CloudFault fault) {
       return "row_step";
     case CloudFault::kDataSize:
       return "data_size";
+    case CloudFault::kTooLarge:
+      return "too_large";
   }
   return "";
 }

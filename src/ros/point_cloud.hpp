@@ -20,6 +20,7 @@ enum class CloudFault {
   kPointStep,
   kRowStep,
   kDataSize,
+  kTooLarge,  ///< by the voxelizer
 };
 const char* name(CloudFault fault);
 

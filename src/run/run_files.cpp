@@ -51,6 +51,7 @@ void addScans(const RunRecord& run, Report& report) {
   report.add("lost", uint64_t{run.count(ScanStatus::kLost)});
   report.add("stale", uint64_t{run.count(ScanStatus::kStale)});
   report.add("too_few_voxels", uint64_t{run.count(ScanStatus::kTooFew)});
+  report.add("too_large", uint64_t{run.count(ScanStatus::kTooLarge)});
   report.add("without_odometry", uint64_t{run.without_odometry});
   report.add("clock_jumps", uint64_t{run.clock_jumps});
   Report left_out;

@@ -112,10 +112,9 @@ void addPoles(Solids& solids, const Side& side, Random& random) {
   for (double x = 12.0; x < side.length - 8.0; x += 24.0) {
     addLamp(solids, along(side, x, -kerb, 0.0, kKerb), 6.5);
     addLamp(solids, along(side, x + 12.0, kerb, kPi, kKerb), 6.5);
-    addTree(
-        solids,
-        along(side, x + 7.0 + random.uniform(-1.0, 1.0), -kerb, random.uniform(0.0, kPi), kKerb),
-        3.2);
+    const double heading = random.uniform(0.0, kPi);
+    const double shift = random.uniform(-1.0, 1.0);
+    addTree(solids, along(side, x + 7.0 + shift, -kerb, heading, kKerb), 3.2);
   }
   for (const double x : {9.0, side.length - 9.0}) {
     addSign(solids, along(side, x, -kerb, random.uniform(-0.3, 0.3), kKerb));

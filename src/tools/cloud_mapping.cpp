@@ -38,6 +38,9 @@ void CloudMapping::process(size_t cloud, const CheckedCloud& checked,
   run_.time_field = checked.time_field;
   StageTimer timer(Clock::kProcessCpu);
   const PipelineResult result = pipeline_.process(checked.view, transforms.prior());
+  if (!result.too_large.empty()) {
+    return leaveOut(cloud, name(CloudFault::kTooLarge), result.too_large);
+  }
   run_.add(cloud, result, transforms.T_base_sensor, timer.lap());
 }
 

@@ -124,6 +124,20 @@ TEST(Status, OfAScanOfAFewVoxelsIsTooFew) {
   }
 }
 
+TEST(Status, OfAScanOfMoreVoxelsThanAllowedIsTooLarge) {
+  Config config;
+  config.voxelizer.max_voxels = static_cast<int>(scans()[3].voxels.size());
+  Mapper mapper{config};
+  VoxelScan large = scans()[2];
+  while (large.voxels.size() <= scans()[3].voxels.size()) large.voxels.push_back(large.voxels[7]);
+  EXPECT_EQ(ScanStatus::kTooLarge, mapper.process(large).status);
+  EXPECT_TRUE(mapper.map().empty());
+  VoxelScan given_up = scans()[2];
+  given_up.too_large = "it has too many points";
+  EXPECT_EQ(ScanStatus::kTooLarge, mapper.process(given_up).status);
+  EXPECT_EQ(ScanStatus::kFirst, mapper.process(scans()[3]).status);
+}
+
 TEST(Lost, ABadScanChangesNothingAndTheNextIsTracked) {
   Mapper mapper = mapperAfter(20);
   const MapState before(mapper);

@@ -65,8 +65,8 @@ struct MappedRoom {
         map(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges, 1) {
     Random random(3);
     for (uint32_t i = 0; i < 20; ++i) {
-      const Vector3d position(random.uniform(-2, 2), random.uniform(-1.5, 1.5),
-                              random.uniform(-0.2, 0.3));
+      const Vector3d position{random.uniform(-2, 2), random.uniform(-1.5, 1.5),
+                              random.uniform(-0.2, 0.3)};
       const Pose pose = poseOf(position, random.uniform(-3, 3));
       std::vector<Vector3d> centroids;
       for (const ScanVoxel& voxel : scanFrom(pose, i).voxels) {

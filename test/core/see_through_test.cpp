@@ -49,8 +49,9 @@ class Scanner {
  public:
   void scan(Box box, OccupiedVoxelMap& map) {
     left_ = !left_;
-    const Vector3d sensor(0.013, (left_ ? 1.3 : -1.3) + 0.1 * random_.normal(),
-                          0.9 + 0.1 * random_.normal());
+    const double z = 0.9 + 0.1 * random_.normal();
+    const double y = (left_ ? 1.3 : -1.3) + 0.1 * random_.normal();
+    const Vector3d sensor(0.013, y, z);
     Centroids hits;
     for (double azimuth = -0.6; azimuth < 0.6; azimuth += 0.011) {
       for (double elevation = -0.6; elevation < 0.2; elevation += 0.011) {

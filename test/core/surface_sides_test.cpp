@@ -35,7 +35,7 @@ struct Ceiling {
         const double x = random.uniform(-1, 1);
         centroids.push_back({x, random.uniform(-1, 1), height});
       }
-      const Vector3d offset(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0);
+      const Vector3d offset{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0};
       map.insert(centroids, offset + (above ? kAbove : kBelow));
     }
   }
@@ -68,7 +68,7 @@ TEST(Sides, PointsMatchTheirOwn) {
   Random random(23);
   for (int i = 0; i < 500; ++i) {
     const double x = random.uniform(-0.9, 0.9);
-    const Vector3d point(x, random.uniform(-0.9, 0.9), random.uniform(0.45, 0.55));
+    const Vector3d point{x, random.uniform(-0.9, 0.9), random.uniform(0.45, 0.55)};
     for (const bool above : {true, false}) {
       const Vector3d& sensor = above ? ceiling.kAbove : ceiling.kBelow;
       const Vector3d to_sensor = (sensor - point).normalized();

@@ -392,6 +392,50 @@ TEST(Voxelizer, ASecondCloudIsVoxelizedAsByANewVoxelizer) {
   expectSameVoxels(voxelize(second), used.voxelize(second.view));
 }
 
+TEST(Voxelizer, ACloudOfTooManyPointsIsGivenUpWithWords) {
+  std::vector<Eigen::Vector3f> points(101, Eigen::Vector3f(1, 2, 3));
+  VoxelizerConfig config;
+  config.max_points = 100;
+  Voxelizer voxelizer(config, 0.2);
+  const VoxelScan large = voxelizer.voxelize(viewOf(points, 1.0, "lidar"));
+  EXPECT_TRUE(large.voxels.empty());
+  for (const char* word : {"101 points", "more than 100", "voxelizer/max_points"}) {
+    EXPECT_NE(std::string::npos, large.too_large.find(word)) << large.too_large;
+  }
+  points.pop_back();
+  const VoxelScan allowed = voxelizer.voxelize(viewOf(points, 1.0, "lidar"));
+  EXPECT_EQ(1U, allowed.voxels.size());
+  EXPECT_TRUE(allowed.too_large.empty());
+}
+
+/// A voxel a point: `blocks` blocks of `each` voxels.
+std::vector<Eigen::Vector3f> pointsInVoxels(int blocks, int each) {
+  std::vector<Eigen::Vector3f> points;
+  for (int b = 0; b < blocks; ++b) {
+    for (int i = 0; i < each; ++i) {
+      points.emplace_back(1.65F + 1.6F * static_cast<float>(b),
+                          0.05F + 0.1F * static_cast<float>(i), 0.05F);
+    }
+  }
+  return points;
+}
+
+TEST(Voxelizer, AScanOfTooManyVoxelsIsGivenUpWithWords) {
+  VoxelizerConfig config;
+  config.max_voxels = 60;
+  Voxelizer voxelizer(config, 0.2);
+  for (const auto& [blocks, each] : {std::pair<int, int>{61, 1}, {7, 10}}) {
+    const VoxelScan large = voxelizer.voxelize(viewOf(pointsInVoxels(blocks, each), 1.0, ""));
+    EXPECT_TRUE(large.voxels.empty());
+    for (const char* word : {"more than 60 voxels", "voxel_size", "max_range"}) {
+      EXPECT_NE(std::string::npos, large.too_large.find(word)) << large.too_large;
+    }
+    const auto allowed = voxelizer.voxelize(viewOf(pointsInVoxels(blocks - 1, each), 1.0, ""));
+    EXPECT_EQ(60U, allowed.voxels.size());
+    EXPECT_TRUE(allowed.too_large.empty());
+  }
+}
+
 TEST(Voxelizer, AnEmptyCloudGivesAnEmptyScan) {
   const VoxelScan scan = Voxelizer(kConfig, kMapVoxel).voxelize(viewOf({}, kStamp, "lidar"));
   EXPECT_TRUE(scan.voxels.empty());

@@ -36,8 +36,8 @@ double solidShare(const World& world, const Vector3d& centre, double radius, int
                   Random& random) {
   int solid = 0;
   for (int drawn = 0; drawn < samples;) {
-    const Vector3d offset(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                          random.uniform(-1.0, 1.0));
+    const Vector3d offset{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                          random.uniform(-1.0, 1.0)};
     if (offset.norm() > 1.0) continue;
     ++drawn;
     if (world.contains(centre + radius * offset)) ++solid;
@@ -186,7 +186,7 @@ TEST_P(WorldTruthTest, NoBendIsMissed) {
   for (int i = 0; i < 8000; ++i) {
     const Vector3d eye = path.poseAt(random_.uniform(0.0, path.duration())).translation();
     const Vector3d direction =
-        Vector3d(random_.normal(), random_.normal(), random_.normal()).normalized();
+        Vector3d{random_.normal(), random_.normal(), random_.normal()}.normalized();
     const auto hit = world_.castRay(eye, direction, 30.0);
     if (!hit) continue;
     const Vector3d point = eye + hit->range * direction;

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 Vector3d randomDirection(Random& random) {
-  const Vector3d direction(random.normal(), random.normal(), random.normal());
+  const Vector3d direction{random.normal(), random.normal(), random.normal()};
   return direction.normalized();
 }
 
@@ -29,11 +29,13 @@ Solid randomSolid(Random& random, double spread) {
   Solid solid;
   solid.shape = random.uniform() < 0.5 ? Shape::Box : Shape::Cylinder;
   solid.half =
-      Vector3d(random.uniform(0.1, 2.0), random.uniform(0.1, 2.0), random.uniform(0.1, 2.0));
+      Vector3d{random.uniform(0.1, 2.0), random.uniform(0.1, 2.0), random.uniform(0.1, 2.0)};
   if (solid.shape == Shape::Cylinder) solid.half.y() = solid.half.x();
   const Vector3d reach = Vector3d::Constant(spread);
-  solid.T_world_solid = Eigen::Translation3d(randomPoint(random, {-reach, reach})) *
-                        Eigen::AngleAxisd(random.uniform(0.0, 3.0), randomDirection(random));
+  const Vector3d centre = randomPoint(random, {-reach, reach});
+  const Vector3d axis = randomDirection(random);
+  solid.T_world_solid =
+      Eigen::Translation3d(centre) * Eigen::AngleAxisd(random.uniform(0.0, 3.0), axis);
   return solid;
 }
 
@@ -98,7 +100,7 @@ TEST(Solid, CastRayAgreesWithSphereTracing) {
     const Vector3d target =
         solid.T_world_solid *
         (1.2 * solid.half.cwiseProduct(
-                   Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))));
+                   Vector3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}));
     if (solid.signedDistance(origin) <= 0.0) continue;
     const Vector3d direction = (target - origin).normalized();
     const auto hit = solid.castRay(origin, direction);
