@@ -23,5 +23,6 @@ void addMapBenchmarks(const std::string& sequence_name);
 void addRegistrationBenchmarks(const std::string& sequence_name);
 /// Independent of the sequences: RatioReporter checks their times against limits.
 void addLimitBenchmarks();
+void addNoiseBenchmarks();
 
 }  // namespace edgevox::bench

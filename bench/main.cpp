@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
     addRegistrationBenchmarks(name);
   }
   addLimitBenchmarks();
+  addNoiseBenchmarks();
   RatioReporter reporter;
   if (benchmark::RunSpecifiedBenchmarks(&reporter) != 0) reporter.printTables(names);
   return 0;
