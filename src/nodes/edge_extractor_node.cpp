@@ -41,15 +41,9 @@ EdgeExtractorNode::EdgeExtractorNode(const ros::NodeHandle& handle,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {}
 
 void EdgeExtractorNode::process(const Input::Arrival& arrival) {
-  const auto mismatch = mismatchOf(*arrival.message, parameters_.config);
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    state_.mismatch = mismatch.value_or("");
-  }
-  if (mismatch) {
-    log_.warn("config_mismatch", "scans from '" + input_.topic() + "' are refused: " + *mismatch);
-    return;
-  }
+  const auto refusal = refusalOf(*arrival.message, parameters_.config);
+  note(refusal);
+  if (refusal) return;
   StageTimer timer(Clock::kWall);
   VoxelScan scan = fromMessage(*arrival.message);
   const EdgeCount count = extractor_.extract(scan);
@@ -70,6 +64,15 @@ void EdgeExtractorNode::process(const Input::Arrival& arrival) {
   if (cloud_.getNumSubscribers() > 0) cloud_.publish(cloudOf(*message, ScanPart::kEdges));
 }
 
+void EdgeExtractorNode::note(const std::optional<ScanRefusal>& refusal) {
+  if (refusal) {
+    log_.warn(refusal->reason, "scans from '" + input_.topic() + "' are refused: " + refusal->text);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.refusal = refusal;
+  if (refusal) ++state_.refused[refusal->reason];
+}
+
 void EdgeExtractorNode::watchSparsity(const VoxelScan& scan, const EdgeCount& count) {
   std::unique_lock<std::mutex> lock(mutex_);
   sparse_alarm_.add(scan, count);
@@ -83,8 +86,8 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.summaryf(DiagnosticStatus::OK, "%zu edge voxels of %zu in a scan", state_.last.edges,
                   state_.last.occupied);
-  if (!state_.mismatch.empty()) {
-    status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.mismatch);
+  if (state_.refusal) {
+    status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.refusal->text);
   } else if (const auto warning = sparse_alarm_.warning()) {
     warn(textOf(*warning), status);
   } else if (state_.last.occupied > 0 && state_.last.edges == 0) {
@@ -97,6 +100,7 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   status.add("occupied voxels of a scan", state_.last.occupied);
   status.add("edge voxels of a scan", state_.last.edges);
   status.addf("sparse voxels, median share", "%.3f", sparse_alarm_.share());
+  for (const auto& [reason, count] : state_.refused) status.add("refused: " + reason, count);
   addTimes("extract", state_.times, status);
 }
 

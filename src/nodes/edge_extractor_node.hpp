@@ -5,7 +5,9 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "edgevox/edge_extractor.hpp"
@@ -13,12 +15,13 @@
 #include "nodes/diagnostics.hpp"
 #include "ros/parameters.hpp"
 #include "ros/scan_input.hpp"
+#include "ros/scan_refusal.hpp"
 #include "ros/throttled_log.hpp"
 
 namespace edgevox {
 
 /// `voxels` to `edges`, the same with the edge voxels marked, and, if somebody listens,
-/// `edges_cloud`. Scans made with another configuration are refused.
+/// `edges_cloud`. Scans with a bad stamp or made with another configuration are refused.
 class EdgeExtractorNode {
  public:
   /// Throws ConfigError.
@@ -30,13 +33,15 @@ class EdgeExtractorNode {
 
   /// What diagnostics tell.
   struct State {
-    std::string mismatch;
+    std::optional<ScanRefusal> refusal;       // of the last scan
+    std::map<std::string, uint64_t> refused;  // by reason
     uint64_t dropped_told = 0;
     EdgeCount last;
     RollingTimes times;
   };
 
   void process(const Input::Arrival& arrival);
+  void note(const std::optional<ScanRefusal>& refusal);
   void watchSparsity(const VoxelScan& scan, const EdgeCount& count);
   void diagnose(DiagnosticStatus& status);
 

@@ -50,9 +50,11 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 void MapperNode::process(const Input::Arrival& arrival) {
   const VoxelScanStamped& scan = *arrival.message;
-  watchClock(scan.header.stamp.toSec());
-  const auto refusal = refusalOf(scan);
-  if (!refusal) waitForTransforms(arrival);
+  const auto refusal = refusalOf(scan, parameters_.config);
+  if (!refusal) {
+    watchClock(scan.header.stamp.toSec());
+    waitForTransforms(arrival);
+  }
   if (input_.stopping()) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (refusal) {
@@ -72,12 +74,6 @@ void MapperNode::watchClock(double stamp) {
   const ClockWatch::Order order = clock_watch_.check(stamp);
   if (order == ClockWatch::Order::kJumpedBack) transforms_.clear();
   if (order != ClockWatch::Order::kLate) clock_watch_.accept(stamp);
-}
-
-std::optional<ScanRefusal> MapperNode::refusalOf(const VoxelScanStamped& scan) const {
-  const auto mismatch = mismatchOf(scan, parameters_.config);
-  if (!mismatch) return std::nullopt;
-  return ScanRefusal{"config_mismatch", *mismatch};
 }
 
 void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {

@@ -44,7 +44,6 @@ class MapperNode {
   void process(const Input::Arrival& arrival);
   void watchClock(double stamp);
   void waitForTransforms(const Input::Arrival& arrival) const;
-  std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& scan) const;
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
   void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                    const ScanTransforms& transforms);

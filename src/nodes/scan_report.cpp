@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ros/stamp.hpp"
+
 namespace edgevox {
 namespace {
 
@@ -76,6 +78,7 @@ ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
 
 ScanReport reportOn(const VoxelScanStamped& scan, const ScanRefusal& refusal) {
   ScanReport report = reportOn(scan);
+  if (faultOf(scan.header.stamp)) report.header.stamp = ros::Time();
   report.status = refusal.reason;
   report.text = refusal.text;
   return report;

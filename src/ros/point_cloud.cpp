@@ -8,6 +8,8 @@
 #include <cstring>
 #include <optional>
 
+#include "ros/stamp.hpp"
+
 namespace edgevox {
 namespace {
 
@@ -56,6 +58,12 @@ std::string where(const Cloud& cloud) {
 }
 
 using Check = std::optional<CloudError>;
+
+Check checkStamp(const Cloud& cloud) {
+  const auto fault = faultOf(cloud.header.stamp);
+  if (!fault) return std::nullopt;
+  return CloudError{CloudFault::kStamp, *fault + where(cloud) + "correct the driver's clock"};
+}
 
 Check checkShape(const Cloud& cloud) {
   if (cloud.width == 0 || cloud.height == 0) {
@@ -232,6 +240,8 @@ CheckedCloud viewOf(const Cloud& cloud) {
 
 const char* name(CloudFault fault) {
   switch (fault) {
+    case CloudFault::kStamp:
+      return "bad_stamp";
     case CloudFault::kEmpty:
       return "empty";
     case CloudFault::kBigEndian:
@@ -255,7 +265,7 @@ const char* name(CloudFault fault) {
 }
 
 CloudReading readCloud(const sensor_msgs::PointCloud2& cloud) {
-  for (const auto check : {checkShape, checkCoordinates, checkLayout}) {
+  for (const auto check : {checkStamp, checkShape, checkCoordinates, checkLayout}) {
     if (Check error = check(cloud)) return *error;
   }
   return viewOf(cloud);

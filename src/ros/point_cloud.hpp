@@ -12,6 +12,7 @@ namespace edgevox {
 
 /// Why a cloud cannot be read.
 enum class CloudFault {
+  kStamp,
   kEmpty,
   kBigEndian,
   kMissingCoordinate,
@@ -37,11 +38,11 @@ struct CheckedCloud {
 
 using CloudReading = std::variant<CheckedCloud, CloudError>;
 
-/// A view of a message after a check of its layout; the points themselves are not looked at. The
-/// time of a point is read from a field `time`, `t`, `timestamp`, `time_stamp`, `offset_time` or
-/// `time_offset` (any case): float32 in seconds and uint32 in nanoseconds count from the cloud's
-/// stamp; float64 is the time since the epoch in seconds or nanoseconds, or, if it is small,
-/// seconds from the stamp.
+/// A view of a message after a check of its stamp and layout; the points themselves are not looked
+/// at. The time of a point is read from a field `time`, `t`, `timestamp`, `time_stamp`,
+/// `offset_time` or `time_offset` (any case): float32 in seconds and uint32 in nanoseconds count
+/// from the cloud's stamp; float64 is the time since the epoch in seconds or nanoseconds, or, if it
+/// is small, seconds from the stamp.
 CloudReading readCloud(const sensor_msgs::PointCloud2& cloud);
 
 }  // namespace edgevox

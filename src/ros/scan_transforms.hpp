@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "edgevox/mapper.hpp"
+#include "ros/scan_refusal.hpp"
 #include "ros/sensor_frames.hpp"
 
 namespace edgevox {
@@ -20,12 +21,6 @@ struct ScanTransforms {
 
   /// The map frame is the odometry's, else the base's, at the first scan.
   ScanPrior prior() const { return {T_odom_sensor, T_odom_sensor.value_or(T_base_sensor)}; }
-};
-
-/// A scan that cannot be mapped.
-struct ScanRefusal {
-  std::string reason;  ///< one word
-  std::string text;    ///< what is wrong, where, and what to do
 };
 
 /// Decides by its header whether a scan can be mapped, in the same way online and offline: its

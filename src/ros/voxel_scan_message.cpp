@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/stamp.hpp"
+
 namespace edgevox {
 namespace {
 
@@ -48,6 +50,26 @@ std::string differenceText(const std::string& name, const std::string& theirs,
                            const std::string& ours) {
   return "its parameter '" + name + "' is " + theirs + ", here it is " + ours +
          "; give all nodelets the same configuration and start them again";
+}
+
+/// The first setting that differs, in words that say what to do.
+std::optional<std::string> mismatchOf(const VoxelScanStamped& message, Config config) {
+  const std::vector<Parameter> ours = parametersOf(config);
+  for (const Setting& setting : message.settings) {
+    const auto found = std::find_if(ours.begin(), ours.end(), [&](const Parameter& parameter) {
+      return parameter.name == setting.name;
+    });
+    if (found == ours.end()) {
+      return "it has a parameter '" + setting.name +
+             "', which is not known here; use one version of edgevox on all computers";
+    }
+    if (!changesResults(setting.name)) continue;
+    const std::string text = valueText(*found);
+    if (text != setting.value) return differenceText(setting.name, setting.value, text);
+  }
+  if (message.voxel_size == config.voxel_size / 2) return std::nullopt;
+  return differenceText("voxel_size", std::to_string(2 * message.voxel_size),
+                        std::to_string(config.voxel_size));
 }
 
 }  // namespace
@@ -103,23 +125,14 @@ void addSettings(Config config, const std::vector<std::string>& prefixes,
   }
 }
 
-std::optional<std::string> mismatchOf(const VoxelScanStamped& message, Config config) {
-  const std::vector<Parameter> ours = parametersOf(config);
-  for (const Setting& setting : message.settings) {
-    const auto found = std::find_if(ours.begin(), ours.end(), [&](const Parameter& parameter) {
-      return parameter.name == setting.name;
-    });
-    if (found == ours.end()) {
-      return "it has a parameter '" + setting.name +
-             "', which is not known here; use one version of edgevox on all computers";
-    }
-    if (!changesResults(setting.name)) continue;
-    const std::string text = valueText(*found);
-    if (text != setting.value) return differenceText(setting.name, setting.value, text);
+std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& message, const Config& config) {
+  if (const auto fault = faultOf(message.header.stamp)) {
+    return ScanRefusal{"bad_stamp", *fault + "; correct the clock of whatever sends the scans"};
   }
-  if (message.voxel_size == config.voxel_size / 2) return std::nullopt;
-  return differenceText("voxel_size", std::to_string(2 * message.voxel_size),
-                        std::to_string(config.voxel_size));
+  if (const auto mismatch = mismatchOf(message, config)) {
+    return ScanRefusal{"config_mismatch", *mismatch};
+  }
+  return std::nullopt;
 }
 
 }  // namespace edgevox

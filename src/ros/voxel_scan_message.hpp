@@ -9,6 +9,7 @@
 
 #include "edgevox/config.hpp"
 #include "edgevox/voxel.hpp"
+#include "ros/scan_refusal.hpp"
 
 namespace edgevox {
 
@@ -25,8 +26,8 @@ VoxelScan fromMessage(const VoxelScanStamped& message);
 void addSettings(Config config, const std::vector<std::string>& prefixes,
                  VoxelScanStamped& message);
 
-/// The first setting of the message that differs from `config`, in words that say what to do;
-/// nothing if there is none. Parameters that change no result are not compared.
-std::optional<std::string> mismatchOf(const VoxelScanStamped& message, Config config);
+/// Why a nodelet with this configuration does not use the message; nothing if it does. The stamp
+/// must be one that ROS can carry, and no setting may differ, but for those that change no result.
+std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& message, const Config& config);
 
 }  // namespace edgevox

@@ -192,6 +192,19 @@ TEST_F(EdgeExtractorTest, RefusesScansOfAnotherConfigurationAndNamesTheParameter
   EXPECT_TRUE(tells("edge_extractor", Status::OK, {"edge voxels of"}));  // the last one is good
 }
 
+TEST_F(EdgeExtractorTest, RefusesAndCountsBadStamps) {
+  start();
+  VoxelScanStamped scan = messageOf(scans()[0]);
+  scan.header.stamp.sec = std::numeric_limits<uint32_t>::max();
+  expectRefused(scan, {"4294967295 s", "too late", "correct the clock"});
+  scan.header.stamp = ros::Time();
+  expectNothingOf(scan);
+  EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN, {resolved("voxels"), "are refused", "too late"}));
+  EXPECT_TRUE(tells("edge_extractor", [](const Status& s) {
+    return s.level == Status::OK && valueOf(s, "refused: bad_stamp") == "3";
+  }));
+}
+
 TEST_F(EdgeExtractorTest, DoesNotCompareWhatChangesNoResult) {
   start();
   VoxelScanStamped scan = messageOf(scans()[0]);

@@ -104,6 +104,9 @@ struct BadCloud {
 
 std::vector<BadCloud> badClouds() {
   return {
+      {CloudFault::kStamp,
+       {"4294967267 s", "too late", "driver's clock"},
+       [](Cloud& c) { c.header.stamp.sec = 4294967267; }},
       {CloudFault::kEmpty,
        {"no points", "range and filter"},
        [](Cloud& c) {

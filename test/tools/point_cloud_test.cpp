@@ -172,6 +172,26 @@ TEST(PointCloud, usableTimeIsPreferred) {
   EXPECT_EQ(checked.note, "");
 }
 
+TEST(PointCloud, stampsThatRosCannotCarry) {
+  constexpr uint32_t kLastSecond = std::numeric_limits<uint32_t>::max();
+  for (const uint32_t seconds : {kLastSecond, kLastSecond - 28, kLastSecond - 86400}) {
+    PointCloud2 cloud = makeCloud(kPoints);
+    cloud.header.stamp.sec = seconds;
+    expectFault(cloud, CloudFault::kStamp,
+                {std::to_string(seconds) + " s", "too late", "frame 'lidar'", "driver's clock"});
+  }
+  PointCloud2 cloud = makeCloud(kPoints);
+  cloud.header.stamp.nsec = 1000000000;
+  expectFault(cloud, CloudFault::kStamp, {"1000000000 ns"});
+  cloud.header.stamp = ros::Time();
+  expectFault(cloud, CloudFault::kStamp, {"never set"});
+  for (const auto& good : {ros::Time(0, 1), ros::Time(0, 100000000), ros::Time(1 << 31, 999999999),
+                           ros::Time(4260000000, 0)}) {
+    cloud.header.stamp = good;
+    EXPECT_EQ(checkedOf(cloud).view.stamp, good.toSec());
+  }
+}
+
 TEST(PointCloud, emptyCloud) {
   expectFault(makeCloud({}), CloudFault::kEmpty, {"no points", "frame 'lidar'"});
 }

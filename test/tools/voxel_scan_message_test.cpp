@@ -72,17 +72,27 @@ TEST(VoxelScanMessage, leavesOutImpossibleVoxels) {
   EXPECT_EQ(3U, fromMessage(message).voxels.size());
 }
 
+TEST(VoxelScanMessage, isRefusedWithAStampThatRosCannotCarry) {
+  VoxelScanStamped message = makeMessage();
+  EXPECT_FALSE(refusalOf(message, {}));
+  message.header.stamp.nsec = std::numeric_limits<uint32_t>::max();
+  const auto refusal = refusalOf(message, {});
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ("bad_stamp", refusal->reason);
+  EXPECT_NE(std::string::npos, refusal->text.find("4294967295 ns")) << refusal->text;
+}
+
 TEST(Settings, ofOneConfigurationAgree) {
   Config config;
   config.voxel_size = 0.2;
   VoxelScanStamped message = makeMessage();
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
   EXPECT_EQ(10U, message.settings.size());  // without edges/instruction_set
-  EXPECT_FALSE(mismatchOf(message, config));
+  EXPECT_FALSE(refusalOf(message, config));
   config.threads = 4;
   config.edges.instruction_set = InstructionSet::kPortable;
   config.map.min_hits = 5;  // not of the nodelets before
-  EXPECT_FALSE(mismatchOf(message, config));
+  EXPECT_FALSE(refusalOf(message, config));
 }
 
 TEST(Settings, thatDifferAreNamed) {
@@ -91,21 +101,22 @@ TEST(Settings, thatDifferAreNamed) {
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
   Config other = config;
   other.edges.ratio = 0.25;
-  const auto mismatch = mismatchOf(message, other);
-  ASSERT_TRUE(mismatch);
-  EXPECT_EQ(0U, mismatch->find("its parameter 'edges/ratio' is 0.1, here it is 0.25;"))
-      << *mismatch;
+  const auto refusal = refusalOf(message, other);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ("config_mismatch", refusal->reason);
+  EXPECT_EQ(0U, refusal->text.find("its parameter 'edges/ratio' is 0.1, here it is 0.25;"))
+      << refusal->text;
   Setting unknown;
   unknown.name = "edges/new";
   message.settings.push_back(unknown);
-  EXPECT_NE(std::string::npos, mismatchOf(message, config)->find("'edges/new'"));
+  EXPECT_NE(std::string::npos, refusalOf(message, config)->text.find("'edges/new'"));
 }
 
 TEST(Settings, withoutThemTheVoxelSizeIsCompared) {
   Config config;
-  EXPECT_FALSE(mismatchOf(makeMessage(), config));
+  EXPECT_FALSE(refusalOf(makeMessage(), config));
   config.voxel_size = 0.1;
-  EXPECT_NE(std::string::npos, mismatchOf(makeMessage(), config)->find("'voxel_size'"));
+  EXPECT_NE(std::string::npos, refusalOf(makeMessage(), config)->text.find("'voxel_size'"));
 }
 
 }  // namespace
