@@ -77,6 +77,7 @@ struct MapperConfig {
   double fallback_sigma = 1.6;      ///< worst deviation of the pose / its running median
   int fallback_matches = 100;       ///< match all voxels below it
   double clock_jump = 2.0;          ///< a stamp so much before the last one is no late scan [s]
+  double clock_leap = 3600.0;       ///< a stamp later by more must be confirmed by a second one [s]
   AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;
   int edge_window = 10;  ///< scans by whose occupancy the edges of the last one are told
 };

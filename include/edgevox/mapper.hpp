@@ -21,7 +21,7 @@ enum class ScanStatus {
   kTracked,   ///< aligned to the map's selected voxels
   kFallback,  ///< aligned to all occupied voxels
   kLost,      ///< no match was good enough; the map and the pose are as before
-  kStale,     ///< not later than the last located scan; not used
+  kStale,     ///< not later than the last located scan, or too much later; not used
   kTooFew,    ///< too few occupied voxels; not used
   kTooLarge,  ///< more points or voxels than allowed; not used
 };
@@ -45,6 +45,7 @@ struct ScanResult {
   double required_hit_ratio = 0.0;
   int matches = 0;
   int restarts = 0;
+  bool ahead = false;         ///< stale, as later by MapperConfig::clock_leap and not confirmed
   bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
   MapperTimes times;
 

@@ -93,6 +93,9 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"mapper/clock_jump", &c.mapper.clock_jump, 0, 1e6, "s",
        "a scan older than the last one by more means that the clock has jumped back; by less it is "
        "late and dropped"},
+      {"mapper/clock_leap", &c.mapper.clock_leap, 1, 1e9, "s",
+       "a scan later than the last one by more is dropped, unless one right before it was as late: "
+       "its stamp may be wrong"},
       {"mapper/after_clock_jump", choiceOf(c.mapper.after_clock_jump, {"keep_map", "clear_map"}), 0,
        0, "",
        "what to do with the map when the clock has jumped back; the velocity is forgotten anyway"},

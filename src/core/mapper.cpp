@@ -21,6 +21,7 @@ constexpr double kFastest = 10.0;                      // the same, of the time 
 constexpr double kWidest = 60.0 * M_PI / 180.0;        // [rad]
 constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
 constexpr double kLongestExtrapolation = 2.0;          // of the motion [s]
+constexpr double kLeastInterval = 1e-3;                // of two sweeps' middles [s]
 constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity to the sweep
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
@@ -75,7 +76,7 @@ double RunningMedian::median() const {
 Mapper::Mapper(const Config& config, Clock clock)
     : config_(config),
       clock_(clock),
-      clock_watch_(config.mapper.clock_jump),
+      clock_watch_(config.mapper.clock_jump, config.mapper.clock_leap),
       matcher_(config.matcher),
       map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
            config.threads),
@@ -88,8 +89,9 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   result.stamp = scan.stamp;
   result.T_map_sensor = T_map_sensor_;
   const ClockWatch::Order order = clock_watch_.check(scan.stamp);
-  if (order == ClockWatch::Order::kLate) {
+  if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
     result.status = ScanStatus::kStale;
+    result.ahead = order == ClockWatch::Order::kAhead;
     return result;
   }
   if (order == ClockWatch::Order::kJumpedBack) {
@@ -108,6 +110,10 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   }
   const SweepTime sweep = sweepTime(scan);
   Located now{scan.stamp + sweep.middle(), firstPose(prior), prior.T_odom_sensor};
+  if (last_ && !(now.time - last_->time >= kLeastInterval)) {
+    result.status = ScanStatus::kStale;
+    return result;
+  }
   if (map_.empty()) {
     result.status = ScanStatus::kFirst;
   } else {

@@ -29,7 +29,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       parameters_(readMapperParameters(private_handle)),
       transforms_(ros::Duration(kTransformCache)),
       listener_(transforms_, handle),
-      clock_watch_(parameters_.config.mapper.clock_jump),
+      clock_watch_(parameters_.config.mapper.clock_jump, parameters_.config.mapper.clock_leap),
       reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
       scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       map_publisher_(handle, parameters_.map_frame),
@@ -73,7 +73,9 @@ void MapperNode::process(const Input::Arrival& arrival) {
 void MapperNode::watchClock(double stamp) {
   const ClockWatch::Order order = clock_watch_.check(stamp);
   if (order == ClockWatch::Order::kJumpedBack) transforms_.clear();
-  if (order != ClockWatch::Order::kLate) clock_watch_.accept(stamp);
+  if (order == ClockWatch::Order::kInTime || order == ClockWatch::Order::kJumpedBack) {
+    clock_watch_.accept(stamp);
+  }
 }
 
 void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {

@@ -35,8 +35,13 @@ std::string adviceOn(const ScanResult& result) {
              percent(result.required_hit_ratio) +
              " must; the map is as before: go back to a mapped place, or call reset for a new map";
     case ScanStatus::kStale:
-      return "its stamp is not later than that of the scan before; if all scans are like this, the "
-             "driver's stamps stand still or two drivers publish on one topic";
+      if (result.ahead) {
+        return "its stamp is later than that of the last scan by more than mapper/clock_leap; the "
+               "next one is used if it is as late: if there was a long pause all is well, else see "
+               "to the driver's clock";
+      }
+      return "its stamp or sweep is not later than that of the scan before; if all scans are like "
+             "this, the driver's stamps stand still or two drivers publish on one topic";
     case ScanStatus::kTooFew:
       return "it has too few voxels to be matched; is the sensor covered, or min_range too large?";
     case ScanStatus::kTooLarge:

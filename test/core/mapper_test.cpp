@@ -289,8 +289,67 @@ TEST(Clock, AScanFromTheFutureDoesNotStopTheMapping) {
 
 TEST(Clock, ALostScanWithAWrongStampDoesNotMakeTheNextOnesLate) {
   Mapper mapper = mapperAfter(20);
-  EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(1e6)).status);
+  EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(1e3)).status);
   EXPECT_TRUE(mapper.process(scans()[20]).located());
+}
+
+constexpr double kDay = 86400.0;  // [s]
+
+/// Later than all before it by more than is likely.
+void expectAhead(const ScanResult& result) {
+  EXPECT_EQ(ScanStatus::kStale, result.status);
+  EXPECT_TRUE(result.ahead);
+}
+
+TEST(Clock, ScansFromFarAheadChangeNothingUnlessTheyFollowOneAnother) {
+  Mapper mapper = mapperAfter(20);
+  Mapper other = mapperAfter(20);
+  const MapState before(mapper);
+  for (const double seconds : {kDay, kDay, 0.5 * kDay, 2e9}) {
+    expectAhead(mapper.process(shifted(20, seconds)));
+  }
+  EXPECT_TRUE(before == MapState(mapper));
+  for (size_t i = 20; i < 24; ++i) {
+    const ScanResult result = mapper.process(scans()[i]);
+    EXPECT_TRUE(result.located() && !result.ahead);
+    EXPECT_TRUE(sameBits(other.process(scans()[i]).T_map_sensor, result.T_map_sensor));
+    expectAhead(mapper.process(shifted(i, kDay)));  // the good one between them speaks against it
+  }
+}
+
+TEST(Clock, AfterAPauseTheSecondScanIsUsed) {
+  Mapper mapper = mapperAfter(20);
+  expectAhead(mapper.process(shifted(20, kDay)));
+  for (size_t i = 21; i < 24; ++i) {
+    const ScanResult result = mapper.process(shifted(i, kDay));
+    EXPECT_TRUE(result.located()) << i;
+    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+  }
+}
+
+TEST(Clock, ScansLostForLongerThanALeapAreNotAhead) {
+  Config config;
+  config.mapper.clock_leap = 1.0;
+  Mapper mapper{config};
+  processAll(mapper, 5);
+  for (int i = 1; i < 8; ++i) {
+    EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(scans()[4].stamp + 0.5 * i)).status);
+  }
+}
+
+TEST(Clock, SweepsAtTheSameTimeAreStale) {
+  VoxelScan too_soon = shifted(20, scans()[19].stamp - scans()[20].stamp + 1e-5);
+  VoxelScan at_once = too_soon;  // its middle is that of the scan before
+  for (ScanVoxel& voxel : at_once.voxels) voxel.time_offset -= 1e-5F;
+  VoxelScan before_it = too_soon;
+  for (ScanVoxel& voxel : before_it.voxels) voxel.time_offset -= 0.2F;
+  for (const VoxelScan& scan : {too_soon, at_once, before_it}) {
+    Mapper mapper = mapperAfter(20);
+    Mapper other = mapperAfter(20);
+    EXPECT_EQ(ScanStatus::kStale, mapper.process(scan).status);
+    EXPECT_TRUE(sameBits(other.process(scans()[20]).T_map_sensor,
+                         mapper.process(scans()[20]).T_map_sensor));
+  }
 }
 
 TEST(MapFrame, IsWhereTheFirstScanIsPut) {

@@ -62,6 +62,29 @@ TEST_F(FaultsTest, LateAndRepeatedScansAreStale) {
                 {"not later than", "driver's stamps"});
 }
 
+TEST_F(FaultsTest, ScansFromFarAheadAreStale) {
+  expectWithout({{4, shifted(3, 86400)}, {8, shifted(7, 86401)}, {12, shifted(11, 1e9)}}, "stale",
+                {"mapper/clock_leap", "driver's clock"});
+}
+
+TEST_F(FaultsTest, BadStampsAreRefusedAndCounted) {
+  VoxelScanStamped not_set = scans()[5];
+  not_set.header.stamp = ros::Time();
+  VoxelScanStamped last = scans()[7];
+  last.header.stamp.sec = std::numeric_limits<uint32_t>::max();
+  VoxelScanStamped near_the_end = scans()[10];
+  near_the_end.header.stamp.sec = std::numeric_limits<uint32_t>::max() - 28;
+  VoxelScanStamped nanoseconds = scans()[12];
+  nanoseconds.header.stamp.nsec = 1000000000;
+  expectWithout({{0, last}, {5, not_set}, {8, last}, {11, near_the_end}, {13, nanoseconds}},
+                "bad_stamp", {"its stamp is", "correct the clock"});
+  for (const auto& report : reports_.messages()) {
+    EXPECT_EQ(report->status == "bad_stamp", report->header.stamp.isZero());
+  }
+  EXPECT_TRUE(
+      tells("mapper", [](const Status& s) { return valueOf(s, "scans bad_stamp") == "5"; }));
+}
+
 TEST_F(FaultsTest, ScansOfAFewVoxelsAreTooFew) {
   VoxelScanStamped few = shifted(3, 0.05);
   few.voxels.resize(49);
@@ -116,7 +139,7 @@ TEST_F(FaultsTest, ALostScanIsAnErrorAndTheNextOnesAreTracked) {
   start();
   Scans sent = firstScans(kMiddle);
   for (const int i : {1, 2, 3}) {
-    sent.push_back(randomScan(stampAfter(kMiddle - 1, 0.02 * i), static_cast<uint32_t>(i)));
+    sent.push_back(randomScan(stampAfter(kMiddle - 1, 0.05 + 0.01 * i), static_cast<uint32_t>(i)));
   }
   map(sent);
   EXPECT_TRUE(tells("mapper", Status::ERROR,
@@ -135,7 +158,7 @@ TEST_F(FaultsTest, ALostScanIsAnErrorAndTheNextOnesAreTracked) {
 }
 
 TEST_F(FaultsTest, OneLostScanDoesNotChangeThePosesAfterIt) {
-  const std::map<size_t, VoxelScanStamped> bad = {{kMiddle, randomScan(stampAfter(7, 0.05))}};
+  const std::map<size_t, VoxelScanStamped> bad = {{kMiddle, randomScan(stampAfter(7, 0.08))}};
   expectWithout(bad, "lost", {"fits the map", "go back to a mapped place"});
 }
 

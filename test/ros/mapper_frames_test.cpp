@@ -180,7 +180,7 @@ TEST_F(FramesTest, AnotherSensorInTheMiddleIsLeftOut) {
   for (const VoxelScanStamped& scan : scans()) {
     sent.push_back(scan);
     if (sent.size() % 4 != 0) continue;
-    sent.push_back(randomScan(scan.header.stamp + ros::Duration(0.05)));
+    sent.push_back(randomScan(scan.header.stamp + ros::Duration(0.08)));
     sent.back().header.frame_id = "rear_lidar";
   }
   map(sent);
