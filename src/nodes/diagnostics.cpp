@@ -53,6 +53,12 @@ void addInput(const InputReading& reading, uint64_t& last_dropped, DiagnosticSta
   last_dropped = reading.dropped;
 }
 
+void addTransforms(const TransformReading& reading, uint64_t& told, DiagnosticStatus& status) {
+  status.add("transforms refused", reading.refused);
+  if (reading.refused > told) warn(reading.last_refusal, status);
+  told = reading.refused;
+}
+
 void addTimes(const std::string& name, const RollingTimes& times, DiagnosticStatus& status) {
   status.addf(name + " median [ms]", "%.1f", kMilliseconds * times.quantile(0.5));
   status.addf(name + " p95 [ms]", "%.1f", kMilliseconds * times.quantile(0.95));

@@ -9,6 +9,7 @@
 
 #include "nodes/rolling_times.hpp"
 #include "ros/input_monitor.hpp"
+#include "ros/transform_input.hpp"
 
 namespace edgevox {
 
@@ -29,6 +30,9 @@ class NodeDiagnostics {
 /// Rate, delay and drops of an input; a warning if nothing comes, or if scans were dropped since
 /// the last call, whose `dropped` it was.
 void addInput(const InputReading& reading, uint64_t& last_dropped, DiagnosticStatus& status);
+
+/// Transforms refused; a warning if there are more than at the last call, whose `told` it was.
+void addTransforms(const TransformReading& reading, uint64_t& told, DiagnosticStatus& status);
 
 /// Median and 95th percentile [ms].
 void addTimes(const std::string& name, const RollingTimes& times, DiagnosticStatus& status);

@@ -27,14 +27,15 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                        const std::string& name)
     : log_(name),
       parameters_(readMapperParameters(private_handle)),
-      transforms_(ros::Duration(kTransformCache)),
-      listener_(transforms_, handle),
+      transforms_(handle, ros::Duration(kTransformCache), parameters_.config.mapper.clock_leap,
+                  log_),
       clock_watch_(parameters_.config.mapper.clock_jump, parameters_.config.mapper.clock_leap),
       reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
       scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       map_publisher_(handle, parameters_.map_frame),
-      transformer_(SensorFrames(transforms_, parameters_.frames)),
-      map_transform_(handle, transforms_, parameters_.map_frame, parameters_.frames.odom),
+      transformer_(SensorFrames(transforms_.transforms().buffer(), parameters_.frames)),
+      map_transform_(handle, transforms_.transforms(), parameters_.map_frame,
+                     parameters_.frames.odom),
       pose_publisher_(handle, parameters_.map_frame, parameters_.frames.base,
                       parameters_.path_length),
       mapper_(parameters_.config, Clock::kWall),
@@ -124,7 +125,10 @@ void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& res
     if (!error.empty()) log_.warn("transform", "no pose on TF: " + error);
   }
   if (!result.located()) return;
-  pose_publisher_.publish(scan.header, result, transforms.T_base_sensor);
+  if (!pose_publisher_.publish(scan.header, result, transforms.T_base_sensor)) {
+    log_.warn("not_finite", "the pose of scan " + std::to_string(scan.number) +
+                                " is not finite and not published; call reset for a new map");
+  }
   last_stamp_ = scan.header.stamp;
 }
 
@@ -199,9 +203,11 @@ bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&
 
 void MapperNode::diagnose(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
+  const TransformReading transforms = transforms_.reading();
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.fill(mapper_.map(), status);
   addInput(reading, status_.droppedTold(), status);
+  addTransforms(transforms, transforms_told_, status);
 }
 
 }  // namespace edgevox

@@ -7,8 +7,6 @@
 #include <ros/publisher.h>
 #include <ros/service_server.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <mutex>
 #include <string>
@@ -25,6 +23,7 @@
 #include "ros/scan_input.hpp"
 #include "ros/scan_transforms.hpp"
 #include "ros/throttled_log.hpp"
+#include "ros/transform_input.hpp"
 #include "run/run_record.hpp"
 
 namespace edgevox {
@@ -56,8 +55,7 @@ class MapperNode {
 
   ThrottledLog log_;
   MapperParameters parameters_;
-  tf2_ros::Buffer transforms_;
-  tf2_ros::TransformListener listener_;
+  TransformInput transforms_;
   ClockWatch clock_watch_;
   ros::Publisher reports_;
   ros::Publisher scan_edges_;
@@ -71,7 +69,8 @@ class MapperNode {
   RunRecord run_;
   MapperStatus status_;
   uint64_t map_version_ = 0;
-  ros::Time last_stamp_;  // of the last located scan
+  uint64_t transforms_told_ = 0;  // as refused
+  ros::Time last_stamp_;          // of the last located scan
 
   Input input_;
   ros::WallTimer map_timer_;

@@ -16,20 +16,19 @@ const ros::WallDuration kPatience(0.3);
 
 }  // namespace
 
-MapTransform::MapTransform(ros::NodeHandle handle, const tf2::BufferCore& buffer,
+MapTransform::MapTransform(ros::NodeHandle handle, const CheckedTransforms& transforms,
                            std::string map_frame, std::string odom_frame)
-    : buffer_(buffer),
+    : transforms_(transforms),
       map_frame_(withoutSlash(map_frame)),
       odom_frame_(withoutSlash(odom_frame)),
-      publisher_(handle.advertise<tf2_msgs::TFMessage>("/tf", 100)),
-      static_tf_(handle.subscribe("/tf_static", 100, &MapTransform::hearStatic, this)) {
+      publisher_(handle.advertise<tf2_msgs::TFMessage>("/tf", 100)) {
   if (!odom_frame_.empty()) child_ = odom_frame_;
 }
 
 bool MapTransform::isReady(const std_msgs::Header& header) const {
   const std::string sensor_frame = withoutSlash(header.frame_id);
   return !odom_frame_.empty() || !child_ || *child_ == sensor_frame ||
-         buffer_.canTransform(*child_, sensor_frame, header.stamp);
+         transforms_.buffer().canTransform(*child_, sensor_frame, header.stamp);
 }
 
 std::string MapTransform::publish(const std_msgs::Header& header, const ScanResult& scan,
@@ -57,7 +56,7 @@ std::string MapTransform::publishOdometry(const std_msgs::Header& header, const 
 
 std::string MapTransform::publishRoot(const Located& located) {
   const Transform T_child_sensor =
-      lookUp(buffer_, *child_, located.header.frame_id, located.header.stamp);
+      lookUp(transforms_.buffer(), *child_, located.header.frame_id, located.header.stamp);
   if (const auto* error = std::get_if<TransformError>(&T_child_sensor)) return error->text;
   return send(located.T_map_sensor * std::get<Pose>(T_child_sensor).inverse(),
               located.header.stamp);
@@ -76,6 +75,8 @@ std::string MapTransform::send(const Pose& T_map_child, const ros::Time& stamp) 
            "' is not published; set odom_frame or base_frame to the robot's frames and start "
            "again, or stop the other publisher";
   }
+  if (!T_map_child.matrix().allFinite())
+    return "the pose of frame '" + *child_ + "' is not finite; call reset for a new map";
   tf2_msgs::TFMessage message;
   message.transforms.push_back(toMessage(T_map_child, map_frame_, *child_, stamp));
   publisher_.publish(message);
@@ -102,22 +103,10 @@ bool MapTransform::chooseChild(const std::string& sensor_frame) {
 }
 
 /// tf2 ignores a static parent of a frame that it has heard of on /tf: of what is published here.
-void MapTransform::hearStatic(const tf2_msgs::TFMessage::ConstPtr& message) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto& transform : message->transforms) {
-    static_parents_[withoutSlash(transform.child_frame_id)] =
-        withoutSlash(transform.header.frame_id);
-  }
-}
-
 std::string MapTransform::parentOf(const std::string& frame) const {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = static_parents_.find(frame);
-    if (found != static_parents_.end()) return found->second;
-  }
-  std::string parent;
-  return buffer_._getParent(frame, ros::Time(0), parent) ? parent : "";
+  std::string parent = transforms_.staticParentOf(frame);
+  if (!parent.empty()) return parent;
+  return transforms_.buffer()._getParent(frame, ros::Time(0), parent) ? parent : "";
 }
 
 }  // namespace edgevox

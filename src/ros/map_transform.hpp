@@ -3,18 +3,14 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/subscriber.h>
 #include <std_msgs/Header.h>
-#include <tf2/buffer_core.h>
-#include <tf2_msgs/TFMessage.h>
 
-#include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "edgevox/mapper.hpp"
+#include "ros/checked_transforms.hpp"
 #include "ros/scan_transforms.hpp"
 
 namespace edgevox {
@@ -26,8 +22,8 @@ namespace edgevox {
 /// frame that has another parent is left alone: no frame ever gets two.
 class MapTransform {
  public:
-  /// `buffer` must outlive this.
-  MapTransform(ros::NodeHandle handle, const tf2::BufferCore& buffer, std::string map_frame,
+  /// `transforms` must outlive this.
+  MapTransform(ros::NodeHandle handle, const CheckedTransforms& transforms, std::string map_frame,
                std::string odom_frame);
 
   /// Whether TF has all that publish() looks up.
@@ -56,9 +52,8 @@ class MapTransform {
                               const ScanTransforms& transforms);
   std::string send(const Pose& T_map_child, const ros::Time& stamp) const;
   std::string parentOf(const std::string& frame) const;
-  void hearStatic(const tf2_msgs::TFMessage::ConstPtr& message);
 
-  const tf2::BufferCore& buffer_;
+  const CheckedTransforms& transforms_;
   std::string map_frame_;
   std::string odom_frame_;
   std::optional<std::string> child_;
@@ -66,9 +61,6 @@ class MapTransform {
   std::vector<Located> early_;  // before the child was known
   ros::WallTime first_;         // scan
   ros::Publisher publisher_;
-  mutable std::mutex mutex_;  // of the parents
-  std::map<std::string, std::string> static_parents_;
-  ros::Subscriber static_tf_;
 };
 
 }  // namespace edgevox

@@ -12,7 +12,9 @@
 namespace edgevox {
 namespace {
 
-constexpr double kPathStep = 0.05;  // [m]
+constexpr double kPathStep = 0.05;       // [m]
+constexpr double kLeastInterval = 1e-3;  // for a velocity [s]
+constexpr double kUnknown = 1e6;         // a variance
 
 double distance(const geometry_msgs::PoseStamped& a, const geometry_msgs::PoseStamped& b) {
   const auto& p = a.pose.position;
@@ -28,6 +30,10 @@ Matrix6 twistCovariance(const Matrix6& a, const Matrix6& b, const Pose& pose, do
   return to_body * (a + b) * to_body.transpose() / (seconds * seconds);
 }
 
+Matrix6 finite(const Matrix6& covariance) {
+  return covariance.allFinite() ? covariance : Matrix6(kUnknown * Matrix6::Identity());
+}
+
 }  // namespace
 
 PosePublisher::PosePublisher(ros::NodeHandle handle, std::string map_frame, std::string base_frame,
@@ -38,13 +44,15 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, std::string map_frame, std:
       odometry_(handle.advertise<nav_msgs::Odometry>("odom", 100)),
       path_publisher_(handle.advertise<nav_msgs::Path>("path", 1, true)) {}
 
-void PosePublisher::publish(const std_msgs::Header& header, const ScanResult& scan,
+bool PosePublisher::publish(const std_msgs::Header& header, const ScanResult& scan,
                             const Pose& T_base_sensor) {
   const Pose T_map_base = scan.T_map_sensor * T_base_sensor.inverse();
-  const Matrix6 covariance = covarianceOfBase(scan.covariance, scan.T_map_sensor, T_base_sensor);
+  if (!T_map_base.matrix().allFinite()) return false;
+  const Matrix6 covariance =
+      finite(covarianceOfBase(scan.covariance, scan.T_map_sensor, T_base_sensor));
   Twist twist;
   Matrix6 twist_covariance = Matrix6::Zero();
-  if (last_ && scan.stamp > last_->stamp) {
+  if (last_ && scan.stamp >= last_->stamp + kLeastInterval) {
     const double seconds = scan.stamp - last_->stamp;
     twist = twistOf(last_->T_map_base.inverse() * T_map_base, seconds);
     twist_covariance = twistCovariance(last_->covariance, covariance, T_map_base, seconds);
@@ -61,6 +69,7 @@ void PosePublisher::publish(const std_msgs::Header& header, const ScanResult& sc
   pose.header = odometry.header;
   pose.pose = odometry.pose.pose;
   appendToPath(pose);
+  return true;
 }
 
 void PosePublisher::appendToPath(const geometry_msgs::PoseStamped& pose) {

@@ -71,9 +71,9 @@ BagReader::BagReader(const std::string& file, const std::string& topic) : file_(
   cloud_count_ = rosbag::View(bag_, rosbag::TopicQuery(topic_)).size();
 }
 
-size_t BagReader::readTransforms(tf2::BufferCore& buffer) {
+std::map<std::string, RefusedTransforms> BagReader::readTransforms(CheckedTransforms& checked) {
   const std::vector<std::string> topics = {"/tf", "tf", "/tf_static", "tf_static"};
-  size_t count = 0;
+  std::map<std::string, RefusedTransforms> all_refused;
   rosbag::View view(bag_, rosbag::TopicQuery(topics));
   try {
     for (const rosbag::MessageInstance& message : view) {
@@ -81,14 +81,17 @@ size_t BagReader::readTransforms(tf2::BufferCore& buffer) {
       if (!transforms) continue;
       const bool is_static = message.getTopic().find("tf_static") != std::string::npos;
       for (const auto& transform : transforms->transforms) {
-        count += buffer.setTransform(transform, file_, is_static) ? 1 : 0;
+        const auto refusal = checked.add(transform, "bag '" + file_ + "'", is_static);
+        if (!refusal) continue;
+        RefusedTransforms& refused = all_refused[refusal->reason];
+        if (++refused.count == 1) refused.first = refusal->text;
       }
     }
   } catch (const std::exception& error) {
     throw BagError("the transforms of bag '" + file_ + "' cannot be read (" + error.what() +
                    "); try 'rosbag reindex " + file_ + "'");
   }
-  return count;
+  return all_refused;
 }
 
 void BagReader::forEachCloud(

@@ -29,6 +29,12 @@ void prepareFolder(const fs::path& folder, const Config& config) {
   writeFile(folder / "config.yaml", yamlText(config));
 }
 
+void readTransforms(BagReader& bag, CheckedTransforms& transforms, Console& console) {
+  for (const auto& [reason, refused] : bag.readTransforms(transforms)) {
+    console.print(refused.first + ". Of this kind: " + std::to_string(refused.count) + ".");
+  }
+}
+
 void requireScans(const BagReader& bag, const CloudMapping& mapping) {
   if (!mapping.run().scans.empty()) return;
   std::string reasons;
@@ -60,9 +66,9 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   BagReader bag(options.bag, options.topic);
   prepareFolder(options.output, config);
 
-  tf2::BufferCore transforms{ros::Duration(kTransformCache)};
-  bag.readTransforms(transforms);
-  CloudMapping mapping(config, SensorFrames(transforms, options.frames), console);
+  CheckedTransforms transforms(ros::Duration(kTransformCache), config.mapper.clock_leap);
+  readTransforms(bag, transforms, console);
+  CloudMapping mapping(config, SensorFrames(transforms.buffer(), options.frames), console);
   mapClouds(bag, options, console, mapping);
 
   const RunRecord& run = mapping.run();

@@ -240,5 +240,43 @@ TEST_F(MapBagTest, predictionFromOdometry) {
   EXPECT_FALSE(logged("cloud 1 is"));
 }
 
+TEST_F(MapBagTest, garbageStampsAndTransformsLeaveNoTrace) {
+  const test::SimulatedRun& simulated = simulatedRun();
+  const auto write = [&](bool garbage) {
+    rosbag::Bag bag(options_.bag, rosbag::bagmode::Write);
+    for (size_t i = 0; i < simulated.clouds.size(); ++i) {
+      PointCloud2 cloud = simulated.clouds[i];
+      const ros::Time stamp = cloud.header.stamp;
+      auto odometry = test::transformOf("odom", "lidar", stamp, simulated.truth[i].pose);
+      test::writeTransform(bag, "/tf", stamp, odometry);
+      bag.write("/points", stamp, cloud);
+      if (!garbage) continue;
+      odometry.header.stamp += ros::Duration(0.05);
+      odometry.transform.translation.x = 1e300;
+      test::writeTransform(bag, "/tf", stamp, odometry);
+      odometry.transform.translation.x = 0;
+      odometry.header.stamp.sec = i % 2 == 0 ? 4294967267 : stamp.sec + 86400;
+      test::writeTransform(bag, "/tf", stamp, odometry);
+      cloud.header.stamp = odometry.header.stamp;
+      bag.write("/points", stamp, cloud);
+    }
+  };
+  options_.frames.odom = "odom";
+  write(false);
+  run();
+  const std::string clean = contentOf(options_.output / "trajectory.tum");
+  write(true);
+  const YAML::Node summary = run();
+  EXPECT_EQ(clean, contentOf(options_.output / "trajectory.tum"));
+  EXPECT_EQ(summary["tracked"].as<int>(), kSweeps);
+  EXPECT_EQ(summary["stale"].as<int>(), kSweeps / 2);
+  EXPECT_EQ(summary["clouds_left_out"]["bad_stamp"].as<int>(), kSweeps / 2);
+  EXPECT_TRUE(logged("the transform from 'odom' to 'lidar' by bag '" + options_.bag +
+                     "' is refused: its translation"));
+  EXPECT_TRUE(logged("Of this kind: 12."));
+  EXPECT_TRUE(logged("4294967267 s"));
+  EXPECT_TRUE(logged("mapper/clock_leap"));
+}
+
 }  // namespace
 }  // namespace edgevox
