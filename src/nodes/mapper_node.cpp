@@ -43,11 +43,13 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
              [this](const Input::Arrival& arrival) { process(arrival); }),
       map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
-      save_service_(
-          ros::NodeHandle(handle).advertiseService("save_map", &MapperNode::saveMap, this)),
-      reset_service_(ros::NodeHandle(handle).advertiseService("reset", &MapperNode::reset, this)),
+      services_(handle),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+  services_.add("save_map", &MapperNode::saveMap, this);
+  services_.add("reset", &MapperNode::reset, this);
+  services_.start();
+}
 
 void MapperNode::process(const Input::Arrival& arrival) {
   const VoxelScanStamped& scan = *arrival.message;
@@ -204,10 +206,12 @@ bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&
 void MapperNode::diagnose(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
   const TransformReading transforms = transforms_.reading();
+  const std::string missing = services_.missing();
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.fill(mapper_.map(), status);
   addInput(reading, status_.droppedTold(), status);
   addTransforms(transforms, transforms_told_, status);
+  if (!missing.empty()) warn("services " + missing, status);
 }
 
 }  // namespace edgevox

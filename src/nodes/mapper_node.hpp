@@ -5,7 +5,6 @@
 #include <edgevox/VoxelScanStamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/service_server.h>
 #include <std_srvs/Trigger.h>
 
 #include <mutex>
@@ -22,6 +21,7 @@
 #include "ros/pose_publisher.hpp"
 #include "ros/scan_input.hpp"
 #include "ros/scan_transforms.hpp"
+#include "ros/service_offers.hpp"
 #include "ros/throttled_log.hpp"
 #include "ros/transform_input.hpp"
 #include "run/run_record.hpp"
@@ -74,8 +74,7 @@ class MapperNode {
 
   Input input_;
   ros::WallTimer map_timer_;
-  ros::ServiceServer save_service_;
-  ros::ServiceServer reset_service_;
+  ServiceOffers services_;
   NodeDiagnostics diagnostics_;
 };
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// edgevox/Mapper unloaded in the midst of its work, and loaded again.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "ros/mapper_fixture.hpp"
+#include "support/temp_folder.hpp"
+
+namespace edgevox::test {
+namespace {
+
+/// A call of save_map that does not end before it is told so: its last but two file is a pipe.
+class LongSave {
+ public:
+  explicit LongSave(const std::string& service)
+      : pipe_(folder_ / ("trajectory.tum.part" + std::to_string(::getpid()))) {
+    EXPECT_EQ(0, ::mkfifo(pipe_.c_str(), 0600));
+    caller_ = std::thread([this, service] {
+      SaveMap save;
+      save.request.folder = folder_.path().string();
+      ros::service::call(service, save);
+    });
+  }
+  ~LongSave() {
+    const int both_ends = ::open(pipe_.c_str(), O_RDWR | O_NONBLOCK);
+    caller_.join();
+    ::close(both_ends);
+  }
+
+  bool begun() const {
+    return eventually([&] { return std::filesystem::exists(folder_ / "map_edges.pcd"); });
+  }
+
+ private:
+  TempFolder folder_;
+  std::filesystem::path pipe_;
+  std::thread caller_;
+};
+
+using ReloadTest = MapperTest;
+
+TEST_F(ReloadTest, OffersItsServicesOnceTheOneBeforeHasEnded) {
+  start();
+  map(firstScans(3));
+  {
+    const LongSave save(resolved("save_map"));
+    ASSERT_TRUE(save.begun());
+    ASSERT_TRUE(unload("mapper"));
+    const ros::WallTime before = ros::WallTime::now();
+    ASSERT_TRUE(load("mapper"));
+    EXPECT_LT((ros::WallTime::now() - before).toSec(), 5.0);
+    EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN,
+                     {"not offered yet", resolved("save_map"), resolved("reset")}));
+    EXPECT_TRUE(tells("mapper", Status::WARN, {"not offered yet", resolved("reset")}));
+  }
+  EXPECT_TRUE(eventually(
+      [&] { return !hasWords(statusesOf("mapper").back().message, {"not offered yet"}); }));
+  EXPECT_TRUE(eventually([&] {
+    std_srvs::Trigger reset;
+    return ros::service::call(resolved("reset"), reset) && reset.response.success;
+  }));
+  map(firstScans(3));
+  EXPECT_EQ("first", statusOf(3));
+  const TempFolder folder;
+  EXPECT_TRUE(save(folder.path().string()).success);
+  EXPECT_EQ(0U, countLogged(rosgraph_msgs::Log::ERROR, {"already advertised"}));
+}
+
+}  // namespace
+}  // namespace edgevox::test
+
+int main(int argc, char** argv) { return edgevox::test::runNodeletTests(argc, argv); }
