@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -21,8 +22,9 @@ class ClockWatch {
   /// confirmed.
   ClockWatch(double least_jump, double leap) : least_jump_(least_jump), leap_(leap) {}
 
-  /// Compares with the last accepted stamp [s].
+  /// Compares with the last accepted stamp [s]; one that is not finite is late.
   Order check(double stamp) {
+    if (!std::isfinite(stamp)) return Order::kLate;
     const std::optional<double> suspected = std::exchange(suspected_, std::nullopt);
     if (!last_) return Order::kInTime;
     const std::optional<double> previous = std::exchange(previous_, std::nullopt);

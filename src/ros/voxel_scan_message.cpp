@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edgevox/voxelizer.hpp"
+
 #include "ros/stamp.hpp"
 
 namespace edgevox {
@@ -131,6 +133,9 @@ std::optional<ScanRefusal> refusalOf(const VoxelScanStamped& message, const Conf
   }
   if (const auto mismatch = mismatchOf(message, config)) {
     return ScanRefusal{"config_mismatch", *mismatch};
+  }
+  if (message.voxels.size() > static_cast<size_t>(config.voxelizer.max_voxels)) {
+    return ScanRefusal{"too_large", tooManyVoxelsText(config.voxelizer)};
   }
   return std::nullopt;
 }

@@ -82,12 +82,25 @@ TEST(VoxelScanMessage, isRefusedWithAStampThatRosCannotCarry) {
   EXPECT_NE(std::string::npos, refusal->text.find("4294967295 ns")) << refusal->text;
 }
 
+TEST(Refusal, ofMoreVoxelsThanAllowed) {
+  Config config;
+  config.voxelizer.max_voxels = 60;
+  VoxelScanStamped message = makeMessage();
+  message.voxels.resize(60, message.voxels.at(0));
+  EXPECT_FALSE(refusalOf(message, config));
+  message.voxels.push_back(message.voxels.front());
+  const auto refusal = refusalOf(message, config);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ("too_large", refusal->reason);
+  EXPECT_NE(std::string::npos, refusal->text.find("more than 60 voxels")) << refusal->text;
+}
+
 TEST(Settings, ofOneConfigurationAgree) {
   Config config;
   config.voxel_size = 0.2;
   VoxelScanStamped message = makeMessage();
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
-  EXPECT_EQ(10U, message.settings.size());  // without edges/instruction_set
+  EXPECT_EQ(12U, message.settings.size());  // without edges/instruction_set
   EXPECT_FALSE(refusalOf(message, config));
   config.threads = 4;
   config.edges.instruction_set = InstructionSet::kPortable;
