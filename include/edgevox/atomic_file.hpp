@@ -14,8 +14,10 @@ struct FileError : std::runtime_error {
 
 /// A file that appears under its name only when it is complete: what is written goes to
 /// temporary(), in the same folder, and keep() renames it. Without keep() nothing is left behind.
+/// Any number of threads and processes may write the same target: one of their files stays.
 class AtomicFile {
  public:
+  /// Makes temporary(), empty. Throws FileError.
   explicit AtomicFile(std::filesystem::path target);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

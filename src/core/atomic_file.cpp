@@ -4,8 +4,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -27,11 +27,26 @@ void flushToDisk(const std::filesystem::path& file, const std::filesystem::path&
   if (error != 0 && error != EINVAL) fail(target, error);  // EINVAL: not to be had here
 }
 
+/// Makes a file beside the target that nobody else has, not even a process with the same id on
+/// another machine.
+std::filesystem::path makeTemporary(const std::filesystem::path& target) {
+  static std::atomic<unsigned> count{0};
+  while (true) {
+    std::filesystem::path file = target;
+    file += ".part" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return file;
+    }
+    if (errno != EEXIST && errno != EINTR) fail(target, errno);
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path target)
-    : target_(std::move(target)),
-      temporary_(target_.string() + ".part" + std::to_string(::getpid())) {}
+    : target_(std::move(target)), temporary_(makeTemporary(target_)) {}
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "edgevox/atomic_file.hpp"
 #include "support/random.hpp"
@@ -146,6 +149,30 @@ TEST(AtomicFile, unfinishedFileDoesNotTouchTheTarget) {
     EXPECT_EQ(entriesIn(folder.path()), 2U);
   }
   EXPECT_EQ(contentOf(folder / "file"), "before");
+  EXPECT_EQ(entriesIn(folder.path()), 1U);
+}
+
+TEST(AtomicFile, threadsThatWriteTheSameFileDoNotMeet) {
+  const test::TempFolder folder;
+  const std::vector<std::string> contents = {std::string(9000, 'a'), std::string(20000, 'b'),
+                                             std::string(30000, 'c'), std::string(500, 'd')};
+  std::atomic<int> failures{0};
+  std::vector<std::thread> writers;
+  for (const std::string& content : contents) {
+    writers.emplace_back([&] {
+      for (int i = 0; i < 50; ++i) {
+        try {
+          writeFile(folder / "file", content);
+        } catch (const FileError&) {
+          ++failures;
+        }
+        const std::string found = contentOf(folder / "file");
+        if (std::count(contents.begin(), contents.end(), found) != 1) ++failures;
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(failures, 0);
   EXPECT_EQ(entriesIn(folder.path()), 1U);
 }
 
