@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/map_files.hpp"
 
-#include <pcl/exceptions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <exception>
 #include <string>
 
 #include "edgevox/atomic_file.hpp"
@@ -44,14 +44,17 @@ void writePly(const fs::path& file, const std::vector<Eigen::Vector3f>& points) 
 void writePcd(const fs::path& target, const std::vector<Eigen::Vector3f>& points) {
   if (points.empty()) return writeFile(target, kEmptyPcd);
   AtomicFile file(target);
-  bool written = false;
-  try {
-    written = pcl::io::savePCDFileBinary(file.temporary().string(), toPcl(points)) == 0;
-  } catch (const pcl::PCLException&) {  // PCL reports some failures so, others by its result
+  std::string reason;
+  try {  // PCL reports some failures by its result, others by an exception
+    if (pcl::io::savePCDFileBinary(file.temporary().string(), toPcl(points)) != 0) {
+      reason = "PCL failed";
+    }
+  } catch (const std::exception& error) {
+    reason = error.what();
   }
-  if (!written) {
-    throw FileError("cannot write '" + target.string() +
-                    "'; check that its folder may be written to and has space left");
+  if (!reason.empty()) {
+    throw FileError("cannot write '" + target.string() + "': " + reason +
+                    "; check that its folder may be written to and has space left");
   }
   file.keep();
 }

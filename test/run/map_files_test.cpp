@@ -5,7 +5,10 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <string>
 #include <vector>
 
 #include "edgevox/atomic_file.hpp"
@@ -53,6 +56,43 @@ TEST(MapFiles, failuresAreReported) {
   const test::TempFolder folder;
   EXPECT_THROW(writePly(folder / "none" / "map.ply", {{1, 2, 3}}), FileError);
   EXPECT_THROW(writePcd(folder / "none" / "map.pcd", {{1, 2, 3}}), FileError);
+}
+
+/// No file of this process grows beyond some bytes.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = SIG_DFL;
+};
+
+TEST(MapFiles, failuresHalfWayAreReportedWithTheirReason) {
+  const test::TempFolder folder;
+  const Points points(10000, Eigen::Vector3f(1, 2, 3));
+  const FileSizeLimit limit(50000);
+  for (const auto& [write, name] : {std::make_pair(writePly, "map.ply"), {writePcd, "map.pcd"}}) {
+    try {
+      write(folder / name, points);
+      ADD_FAILURE() << name << " was written";
+    } catch (const FileError& error) {
+      const std::string text = error.what();
+      EXPECT_EQ(text.find("cannot write '" + (folder / name).string() + "': "), 0U) << text;
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(MapFiles, centroidsInTheOrderOfVoxels) {
