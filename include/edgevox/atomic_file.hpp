@@ -34,6 +34,9 @@ class AtomicFile {
   bool kept_ = false;
 };
 
+/// A file, or the names in a folder. Throws FileError.
+void flushToDisk(const std::filesystem::path& file);
+
 /// Throws FileError; then the file is as it was before.
 void writeFile(const std::filesystem::path& target, const std::string& content);
 

@@ -19,14 +19,6 @@ namespace {
                   "; check that its folder exists, may be written to and has space left");
 }
 
-void flushToDisk(const std::filesystem::path& file, const std::filesystem::path& target) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail(target, errno);
-  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  if (error != 0 && error != EINVAL) fail(target, error);  // EINVAL: not to be had here
-}
-
 /// Makes a file beside the target that nobody else has, not even a process with the same id on
 /// another machine.
 std::filesystem::path makeTemporary(const std::filesystem::path& target) {
@@ -45,6 +37,14 @@ std::filesystem::path makeTemporary(const std::filesystem::path& target) {
 
 }  // namespace
 
+void flushToDisk(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(file, errno);
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0 && error != EINVAL) fail(file, error);  // EINVAL: not to be had here
+}
+
 AtomicFile::AtomicFile(std::filesystem::path target)
     : target_(std::move(target)), temporary_(makeTemporary(target_)) {}
 
@@ -54,7 +54,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::keep() {
-  flushToDisk(temporary_, target_);
+  flushToDisk(temporary_);
   std::error_code error;
   std::filesystem::rename(temporary_, target_, error);
   if (error) fail(target_, error.value());
