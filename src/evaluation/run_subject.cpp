@@ -6,6 +6,7 @@
 #include "edgevox/trajectory_evaluation.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
+#include "run/run_folder.hpp"
 
 namespace edgevox {
 namespace {
@@ -17,7 +18,7 @@ po::options_description describe() {
   po::options_description known(
       "Usage: evaluate run FOLDER --reference TUM\n"
       "Compares FOLDER/trajectory.tum with a reference trajectory of the same frame: writes\n"
-      "FOLDER/errors.csv and prints the errors as JSON.\nOptions");
+      "FOLDER/errors.csv and errors.json and prints the latter.\nOptions");
   auto add = known.add_options();
   add("help,h", "print this text");
   add("folder", po::value<std::string>()->required(), "of map_bag or save_map; the first argument");
@@ -31,11 +32,16 @@ void evaluateRun(const Arguments& arguments) {
   const auto given = parseArguments(arguments, describe(), "folder");
   if (!given) return;
   const fs::path folder = (*given)["folder"].as<std::string>();
+  RunFolder run(folder);
+  run.check();
   const Trajectory estimate = readTum(folder / "trajectory.tum");
   const Trajectory reference = readTum((*given)["reference"].as<std::string>());
   const TrajectoryErrors errors = evaluate(estimate, reference);
-  writeFile(folder / "errors.csv", errorsCsv(errors));
-  std::cout << errorsReport(errors).json();
+  const std::string report = errorsReport(errors).json();
+  writeFile(run.stage("errors.csv"), errorsCsv(errors));
+  writeFile(run.stage("errors.json"), report);
+  run.add();
+  std::cout << report;
 }
 
 }  // namespace edgevox

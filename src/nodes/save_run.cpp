@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/save_run.hpp"
 
-#include <filesystem>
-
 #include "edgevox/atomic_file.hpp"
 #include "run/run_files.hpp"
 
@@ -19,13 +17,7 @@ std::string saveRun(const std::string& folder, const Config& config, const RunRe
     throw FileError("the folder '" + folder + "' is not absolute; begin it with /");
   }
   map.label();
-  const std::filesystem::path path = folder;
-  makeFolder(path);
-  writeFile(path / "config.yaml", yamlText(config));
-  writeMap(path, map);
-  writeTum(path / "trajectory.tum", run.trajectory());
-  writeFile(path / "timings.csv", timingsCsv(run.scans));
-  writeFile(path / "summary.json", summarise(run, map).json());
+  writeRun(folder, {config, run, map});
   return "saved " + std::to_string(map.edgeVoxels().voxelCount()) + " edge voxels and " +
          std::to_string(run.located()) + " poses to " + folder;
 }

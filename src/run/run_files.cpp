@@ -13,6 +13,7 @@
 #include "edgevox/number_text.hpp"
 #include "edgevox/statistics.hpp"
 #include "run/map_files.hpp"
+#include "run/run_folder.hpp"
 
 namespace edgevox {
 namespace {
@@ -178,11 +179,22 @@ void makeFolder(const fs::path& folder) {
                   "; choose another output folder");
 }
 
-void writeMap(const fs::path& folder, const OccupiedVoxelMap& map, bool occupied_too) {
+Report writeRun(const fs::path& folder, const RunResults& results) {
+  const auto& [config, run, map, occupied_too, errors] = results;
+  const Report summary = summarise(run, map, errors);
+  makeFolder(folder);
+  RunFolder files(folder);
+  writeFile(files.stage("config.yaml"), yamlText(config));
+  writeTum(files.stage("trajectory.tum"), run.trajectory());
   const auto edges = centroidsOf(map, map.edgeVoxels());
-  writePly(folder / "map_edges.ply", edges);
-  writePcd(folder / "map_edges.pcd", edges);
-  if (occupied_too) writePly(folder / "map_occupied.ply", centroidsOf(map, map.hitVoxels()));
+  writePly(files.stage("map_edges.ply"), edges);
+  writePcd(files.stage("map_edges.pcd"), edges);
+  if (occupied_too) writePly(files.stage("map_occupied.ply"), centroidsOf(map, map.hitVoxels()));
+  writeFile(files.stage("timings.csv"), timingsCsv(run.scans));
+  if (errors) writeFile(files.stage("errors.csv"), errorsCsv(*errors));
+  writeFile(files.stage("summary.json"), summary.json());
+  files.replace();
+  return summary;
 }
 
 }  // namespace edgevox

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "edgevox/config.hpp"
 #include "edgevox/occupied_voxel_map.hpp"
 #include "edgevox/trajectory_evaluation.hpp"
 #include "run/report.hpp"
@@ -27,8 +28,16 @@ Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
 /// With all folders above it. Throws FileError.
 void makeFolder(const std::filesystem::path& folder);
 
-/// map_edges.ply and .pcd, and map_occupied.ply if asked for. Throws FileError.
-void writeMap(const std::filesystem::path& folder, const OccupiedVoxelMap& map,
-              bool occupied_too = false);
+struct RunResults {
+  const Config& config;
+  const RunRecord& run;
+  const OccupiedVoxelMap& map;  ///< with its labels up to date
+  bool occupied_too = false;    ///< also write map_occupied.ply
+  std::optional<TrajectoryErrors> errors = std::nullopt;
+};
+
+/// Makes the folder if need be and puts the files of the run, all together, in the place of those
+/// of an earlier one. Gives the summary; throws FileError.
+Report writeRun(const std::filesystem::path& folder, const RunResults& results);
 
 }  // namespace edgevox

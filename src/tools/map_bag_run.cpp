@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/map_bag_run.hpp"
 
-#include <array>
 #include <optional>
 
 #include "edgevox/atomic_file.hpp"
@@ -17,16 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTransformCache = 30.0 * 24 * 3600;  // [s], longer than any bag
-constexpr std::array<const char*, 7> kResults = {
-    "trajectory.tum", "map_edges.ply", "map_edges.pcd", "map_occupied.ply",
-    "timings.csv",    "errors.csv",    "summary.json"};
 
-/// Also takes out of it what an earlier run has left: this one may fail, or write fewer files.
-void prepareFolder(const fs::path& folder, const Config& config) {
+/// Fails now and not after the mapping.
+void requireWritable(const fs::path& folder) {
   makeFolder(folder);
-  std::error_code error;
-  for (const char* file : kResults) fs::remove(folder / file, error);
-  writeFile(folder / "config.yaml", yamlText(config));
+  const AtomicFile probe(folder / "trajectory.tum");
 }
 
 void readTransforms(BagReader& bag, CheckedTransforms& transforms, Console& console) {
@@ -57,6 +51,19 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   if (const auto warning = mapping.sparseAlarm().warning()) console.print(textOf(*warning));
 }
 
+/// The results are kept even if the reference is of no use.
+Report writeResults(const MapBagOptions& options, const std::optional<Trajectory>& reference,
+                    RunResults results) {
+  results.occupied_too = options.write_occupied;
+  try {
+    if (reference) results.errors = evaluate(results.run.trajectory(), *reference);
+  } catch (const TrajectoryError&) {
+    writeRun(options.output, results);
+    throw;
+  }
+  return writeRun(options.output, results);
+}
+
 }  // namespace
 
 Report runMapBag(const MapBagOptions& options, Console& console) {
@@ -64,25 +71,14 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   std::optional<Trajectory> reference;
   if (!options.reference.empty()) reference = readTum(options.reference);
   BagReader bag(options.bag, options.topic);
-  prepareFolder(options.output, config);
+  requireWritable(options.output);
 
   CheckedTransforms transforms(ros::Duration(kTransformCache), config.mapper.clock_leap);
   readTransforms(bag, transforms, console);
   CloudMapping mapping(config, SensorFrames(transforms.buffer(), options.frames), console);
   mapClouds(bag, options, console, mapping);
 
-  const RunRecord& run = mapping.run();
-  writeTum(options.output / "trajectory.tum", run.trajectory());
-  writeMap(options.output, mapping.map(), options.write_occupied);
-  writeFile(options.output / "timings.csv", timingsCsv(run.scans));
-  std::optional<TrajectoryErrors> errors;
-  if (reference) {
-    errors = evaluate(run.trajectory(), *reference);
-    writeFile(options.output / "errors.csv", errorsCsv(*errors));
-  }
-  const Report summary = summarise(run, mapping.map(), errors);
-  writeFile(options.output / "summary.json", summary.json());
-  return summary;
+  return writeResults(options, reference, {config, mapping.run(), mapping.map()});
 }
 
 }  // namespace edgevox

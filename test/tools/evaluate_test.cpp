@@ -7,9 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 
 #include "map_bag_fixture.hpp"
+#include "run/run_folder.hpp"
 
 namespace edgevox {
 namespace {
@@ -41,10 +44,12 @@ TEST_F(EvaluateTest, givesTheErrorsThatMapBagGives) {
   const YAML::Node summary = run();
   const std::string errors = contentOf(options_.output / "errors.csv");
   ASSERT_FALSE(errors.empty());
-  std::filesystem::remove(options_.output / "errors.csv");
+  const std::string reference = std::exchange(options_.reference, "");
+  run();
+  ASSERT_FALSE(std::filesystem::exists(options_.output / "errors.csv"));
 
   const Outcome outcome =
-      evaluateRun("run " + options_.output.string() + " --reference " + options_.reference);
+      evaluateRun("run " + options_.output.string() + " --reference " + reference);
   ASSERT_EQ(0, outcome.exit_code) << outcome.output;
   const YAML::Node printed = YAML::Load(outcome.output);
   EXPECT_GT(printed.size(), 5U);
@@ -53,6 +58,17 @@ TEST_F(EvaluateTest, givesTheErrorsThatMapBagGives) {
     EXPECT_EQ(summary[name].as<std::string>(), value.second.as<std::string>()) << name;
   }
   EXPECT_EQ(errors, contentOf(options_.output / "errors.csv"));
+  EXPECT_EQ(outcome.output, contentOf(options_.output / "errors.json"));
+  EXPECT_NO_THROW(RunFolder(options_.output).check());
+}
+
+TEST_F(EvaluateTest, refusesARunThatIsNotWhole) {
+  writeBag({test::simulatedRun().clouds.front()});
+  run();
+  std::ofstream(options_.output / "trajectory.tum", std::ios::app) << "# a line more\n";
+  const Outcome outcome = evaluateRun("run " + options_.output.string() + " --reference /none.tum");
+  EXPECT_EQ(1, outcome.exit_code);
+  EXPECT_NE(std::string::npos, outcome.output.find("trajectory.tum' is damaged")) << outcome.output;
 }
 
 TEST_F(EvaluateTest, saysWhatIsMissing) {

@@ -3,6 +3,7 @@
 #include <std_msgs/String.h>
 
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,27 @@ TEST_F(MapBagTest, badReference) {
   std::ofstream(folder_ / "none.tum") << "1 0 0 0 0 0 0 1\n";
   expectError<TrajectoryError>({"only 0 of 12 poses"});
   EXPECT_TRUE(fs::exists(options_.output / "trajectory.tum"));
+}
+
+std::map<std::string, std::string> contentsOf(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    contents[entry.path().filename().string()] = test::contentOf(entry.path());
+  }
+  return contents;
+}
+
+TEST_F(MapBagTest, aRunThatFailsLeavesTheResultsOfTheOneBefore) {
+  writeBag({simulatedRun().clouds.front()});
+  run();
+  const auto before = contentsOf(options_.output);
+  EXPECT_EQ(before.size(), 7U);
+  options_.settings = {"voxel_size=0.4"};
+  options_.frames.base = "base_link";
+  expectError<BagError>({"no_mounting 1"});
+  options_.topic = "/none";
+  expectError<BagError>({"/none"});
+  EXPECT_EQ(contentsOf(options_.output), before);
 }
 
 TEST_F(MapBagTest, badConfiguration) {
