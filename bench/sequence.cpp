@@ -69,10 +69,10 @@ Cloud cloudOf(const sensor_msgs::PointCloud2& message) {
 std::vector<Cloud> readBag(const Source& source) {
   std::vector<Cloud> clouds;
   BagReader reader(bagOf(source).string(), "");
-  reader.forEachCloud([&](size_t i, const rosbag::MessageInstance& message) {
+  reader.forEachCloud([&](size_t i, const BagReader::ReadCloud& read) {
     if (i < source.first || i >= source.first + kScans) return;
-    const auto decoded = BagReader::decode(message);
-    if (decoded) clouds.push_back(cloudOf(*decoded));
+    const BagCloud cloud = read();
+    if (cloud.message) clouds.push_back(cloudOf(*cloud.message));
   });
   return clouds;
 }

@@ -20,16 +20,17 @@ RecordedScan scanOf(const sensor_msgs::PointCloud2& message, const CloudView& vi
   return scan;
 }
 
-/// Calls visit(index, message, view) for the clouds that can be read.
+/// Calls visit(index, message, view) for the clouds of use. Throws BagError for a damaged bag.
 template <typename Visit>
 void forEachReadable(BagReader& bag, const Visit& visit) {
-  bag.forEachCloud([&](size_t index, const rosbag::MessageInstance& instance) {
-    const auto message = BagReader::decode(instance);
-    if (!message) return;
-    const CloudReading reading = readCloud(*message);
+  bag.forEachCloud([&](size_t index, const BagReader::ReadCloud& read) {
+    const BagCloud cloud = read();
+    if (!cloud.message) return;
+    const CloudReading reading = readCloud(*cloud.message);
     const auto* checked = std::get_if<CheckedCloud>(&reading);
-    if (checked != nullptr) visit(index, *message, checked->view);
+    if (checked != nullptr) visit(index, *cloud.message, checked->view);
   });
+  if (!bag.losses().empty()) throw BagError(textsOf(bag.losses()).front());
 }
 
 std::vector<RecordedScan> readScans(BagReader& bag, const RecordingOptions& options) {

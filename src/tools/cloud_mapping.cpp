@@ -8,21 +8,17 @@ namespace edgevox {
 CloudMapping::CloudMapping(const Config& config, const SensorFrames& frames, Console& console)
     : transformer_(frames), console_(console), pipeline_(config) {}
 
-void CloudMapping::add(size_t cloud, const sensor_msgs::PointCloud2::ConstPtr& message) {
-  if (!message) {
-    return leaveOut(cloud, "undecodable",
-                    "it cannot be decoded: the bag is damaged or holds another version of "
-                    "sensor_msgs/PointCloud2, see 'rosbag check'");
-  }
-  const CloudReading reading = readCloud(*message);
+void CloudMapping::add(size_t index, const BagCloud& cloud) {
+  if (!cloud.message) return leaveOut(index, cloud.reason, cloud.text);
+  const CloudReading reading = readCloud(*cloud.message);
   if (const auto* error = std::get_if<CloudError>(&reading)) {
-    return leaveOut(cloud, name(error->fault), error->text);
+    return leaveOut(index, name(error->fault), error->text);
   }
-  const auto transforms = transformer_.transformsOf(message->header);
+  const auto transforms = transformer_.transformsOf(cloud.message->header);
   if (const auto* refusal = std::get_if<ScanRefusal>(&transforms)) {
-    return leaveOut(cloud, refusal->reason, refusal->text);
+    return leaveOut(index, refusal->reason, refusal->text);
   }
-  process(cloud, std::get<CheckedCloud>(reading), std::get<ScanTransforms>(transforms));
+  process(index, std::get<CheckedCloud>(reading), std::get<ScanTransforms>(transforms));
 }
 
 void CloudMapping::leaveOut(size_t cloud, const std::string& reason, const std::string& text) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sensor_msgs/PointCloud2.h>
-
 #include <cstddef>
 #include <string>
 
@@ -10,6 +8,7 @@
 #include "ros/point_cloud.hpp"
 #include "ros/scan_transforms.hpp"
 #include "run/run_record.hpp"
+#include "tools/bag_reader.hpp"
 #include "tools/console.hpp"
 
 namespace edgevox {
@@ -21,8 +20,7 @@ class CloudMapping {
   /// `frames` and `console` must outlive this. Throws ConfigError.
   CloudMapping(const Config& config, const SensorFrames& frames, Console& console);
 
-  /// Null stands for a message that cannot be decoded.
-  void add(size_t cloud, const sensor_msgs::PointCloud2::ConstPtr& message);
+  void add(size_t index, const BagCloud& cloud);
   /// Brings the map's labels up to date; no clouds after that.
   void finish() { pipeline_.mapper().finishLabels(); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps the clouds of a bag without a ROS master.
+// Maps the clouds of a bag without a ROS master. Exit codes: 1 no results, 2 wrong usage, 3 results
+// of a part of the bag, as the rest could not be read.
 #include <unistd.h>
 
 #include <exception>
@@ -12,8 +13,11 @@ int main(int argc, char** argv) {
     const auto options = edgevox::parseMapBagOptions(argc, argv);
     if (!options) return 0;
     edgevox::Console console(std::cerr, isatty(STDERR_FILENO) != 0);
-    std::cout << edgevox::runMapBag(*options, console).table();
-    return 0;
+    const edgevox::MapBagOutcome outcome = edgevox::runMapBag(*options, console);
+    std::cout << outcome.summary.table();
+    if (outcome.loss.empty()) return 0;
+    std::cerr << "map_bag: " << outcome.loss << "\n";
+    return 3;
   } catch (const edgevox::UsageError& error) {
     std::cerr << "map_bag: " << error.what() << "\n";
     return 2;

@@ -18,7 +18,8 @@ po::options_description describe() {
   using Texts = std::vector<std::string>;
   po::options_description description(
       "Usage: map_bag BAG --output FOLDER [options]\n"
-      "Maps the clouds of a bag as fast as it goes; needs no ROS master.\nOptions");
+      "Maps the clouds of a bag as fast as it goes; needs no ROS master. Exit code 3: the results\n"
+      "are written, but parts of the bag were damaged and left out.\nOptions");
   auto add = description.add_options();
   add("help,h", "print this text");
   add("bag", po::value<Text>(), "the bag (also without --bag, as the first argument)");

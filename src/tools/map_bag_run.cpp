@@ -42,10 +42,11 @@ void requireScans(const BagReader& bag, const CloudMapping& mapping) {
 
 void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
                CloudMapping& mapping) {
-  bag.forEachCloud([&](size_t cloud, const rosbag::MessageInstance& message) {
-    if (isUsed(cloud, options)) mapping.add(cloud, BagReader::decode(message));
+  bag.forEachCloud([&](size_t cloud, const BagReader::ReadCloud& read) {
+    if (isUsed(cloud, options)) mapping.add(cloud, read());
     console.showProgress(cloud + 1, bag.cloudCount());
   });
+  for (const std::string& text : textsOf(bag.losses())) console.print(text);
   requireScans(bag, mapping);
   mapping.finish();
   if (const auto warning = mapping.sparseAlarm().warning()) console.print(textOf(*warning));
@@ -64,9 +65,23 @@ Report writeResults(const MapBagOptions& options, const std::optional<Trajectory
   return writeRun(options.output, results);
 }
 
+std::string lossOf(const BagReader& bag, const MapBagOptions& options) {
+  if (bag.losses().empty()) return "";
+  size_t clouds = 0;
+  size_t transforms = 0;
+  for (const auto& [chunk, loss] : bag.losses()) {
+    clouds += loss.clouds.size();
+    transforms += loss.transforms;
+  }
+  return "bag '" + options.bag + "' is damaged, see above: the results in '" +
+         options.output.string() + "' are without " + std::to_string(clouds) + " of " +
+         std::to_string(bag.cloudCount()) + " clouds and " + std::to_string(transforms) +
+         " messages of transforms";
+}
+
 }  // namespace
 
-Report runMapBag(const MapBagOptions& options, Console& console) {
+MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
   const Config config = configOf(options);
   std::optional<Trajectory> reference;
   if (!options.reference.empty()) reference = readTum(options.reference);
@@ -78,7 +93,8 @@ Report runMapBag(const MapBagOptions& options, Console& console) {
   CloudMapping mapping(config, SensorFrames(transforms.buffer(), options.frames), console);
   mapClouds(bag, options, console, mapping);
 
-  return writeResults(options, reference, {config, mapping.run(), mapping.map()});
+  const Report summary = writeResults(options, reference, {config, mapping.run(), mapping.map()});
+  return {summary, lossOf(bag, options)};
 }
 
 }  // namespace edgevox

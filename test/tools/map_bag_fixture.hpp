@@ -49,9 +49,10 @@ class MapBagTest : public ::testing::Test {
   YAML::Node run(const MapBagOptions& options) {
     log_.str("");
     Console console(log_, false);
-    const Report report = runMapBag(options, console);
-    EXPECT_EQ(contentOf(options.output / "summary.json"), report.json());
-    return YAML::Load(report.json());
+    const MapBagOutcome outcome = runMapBag(options, console);
+    loss_ = outcome.loss;
+    EXPECT_EQ(contentOf(options.output / "summary.json"), outcome.summary.json());
+    return YAML::Load(outcome.summary.json());
   }
 
   template <typename Error>
@@ -74,6 +75,7 @@ class MapBagTest : public ::testing::Test {
   TempFolder folder_;
   MapBagOptions options_;
   std::ostringstream log_;
+  std::string loss_;  ///< of the last run
 };
 
 }  // namespace edgevox::test

@@ -37,7 +37,7 @@ class RealData : public ::testing::Test {
     options.settings = settings;
     std::ostringstream log;
     Console console(log, false);
-    return YAML::Load(runMapBag(options, console).json());
+    return YAML::Load(runMapBag(options, console).summary.json());
   }
 
   std::string trajectoryOf(const std::string& name) {
