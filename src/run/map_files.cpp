@@ -5,6 +5,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <exception>
 #include <string>
 
@@ -30,6 +31,13 @@ PclCloud toPcl(const std::vector<Eigen::Vector3f>& points) {
   return cloud;
 }
 
+/// PCL's reasons begin with a colon.
+[[noreturn]] void fail(const fs::path& target, const std::string& reason) {
+  throw FileError("cannot write '" + target.string() +
+                  "': " + reason.substr(std::min(reason.size(), reason.find_first_not_of(": "))) +
+                  "; check that its folder may be written to and has space left");
+}
+
 }  // namespace
 
 void writePly(const fs::path& file, const std::vector<Eigen::Vector3f>& points) {
@@ -44,18 +52,13 @@ void writePly(const fs::path& file, const std::vector<Eigen::Vector3f>& points) 
 void writePcd(const fs::path& target, const std::vector<Eigen::Vector3f>& points) {
   if (points.empty()) return writeFile(target, kEmptyPcd);
   AtomicFile file(target);
-  std::string reason;
+  int result = 0;
   try {  // PCL reports some failures by its result, others by an exception
-    if (pcl::io::savePCDFileBinary(file.temporary().string(), toPcl(points)) != 0) {
-      reason = "PCL failed";
-    }
+    result = pcl::io::savePCDFileBinary(file.temporary().string(), toPcl(points));
   } catch (const std::exception& error) {
-    reason = error.what();
+    fail(target, error.what());
   }
-  if (!reason.empty()) {
-    throw FileError("cannot write '" + target.string() + "': " + reason +
-                    "; check that its folder may be written to and has space left");
-  }
+  if (result != 0) fail(target, "PCL failed");
   file.keep();
 }
 
