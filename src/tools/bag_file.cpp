@@ -45,8 +45,7 @@ BagFile::BagFile(const std::string& name) : in_(name, std::ios::binary | std::io
 
 std::vector<uint8_t> BagFile::bytesAt(uint64_t at, uint64_t size) {
   if (at > size_ || size > size_ - at) {
-    throw BagDamage(std::to_string(size) + " bytes from byte " + std::to_string(at) +
-                    " reach beyond its end");
+    throw BagDamage("the file ends too early, at byte " + std::to_string(size_));
   }
   std::vector<uint8_t> bytes(size);
   in_.clear();

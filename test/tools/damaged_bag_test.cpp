@@ -195,7 +195,7 @@ TEST_F(DamagedBagTest, aDamagedIndexIsToldWithItsByte) {
   flip(contentOf(options_.bag).find(count) + count.size(), 2);
   expectError<BagError>({"more chunks", "rosbag reindex"});
   fs::resize_file(options_.bag, index);
-  expectError<BagError>({options_.bag, "reach beyond its end", "rosbag reindex"});
+  expectError<BagError>({options_.bag, "the file ends too early", "rosbag reindex"});
 }
 
 TEST_F(DamagedBagTest, anyByteMayBeWrong) {
