@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -67,6 +68,8 @@ class OccupiedVoxelMap {
   size_t loneCentroids() const { return left_out_lone_; }
   /// Centroids left out because the map is as large as `memory`.
   size_t centroidsPastMemory() const { return left_out_full_; }
+  /// Whether it was when the last scan was added.
+  bool isFull() const { return full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
   /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
@@ -126,6 +129,7 @@ class OccupiedVoxelMap {
   size_t cleared_count_ = 0;
   size_t left_out_lone_ = 0;
   size_t left_out_full_ = 0;
+  bool full_ = false;
   RecentVoxels lone_voxels_;
   ScanNeighbours neighbours_;  // of the scan being added
   SlotGrid<8> hit_grid_;
@@ -145,6 +149,9 @@ class OccupiedVoxelMap {
   std::vector<uint32_t> slots_;                                 // of the same, at one level
   std::vector<VoxelIndex> cleared_;                             // by the scan being added
 };
+
+/// Says that a map is as large as it may be, and what to do.
+std::string fullText(const MapConfig& config);
 
 template <typename Test>
 void OccupiedVoxelMap::keepPoints(const Test& test) {

@@ -74,7 +74,8 @@ void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
   ++scans_;
   setPoints(centroids);
   leaveOutLone();
-  if (bytes() >= static_cast<size_t>(config_.memory) * kMegabyte) leaveOutNew();
+  full_ = bytes() >= static_cast<size_t>(config_.memory) * kMegabyte;
+  if (full_) leaveOutNew();
   addPoints(sensor);
 }
 
@@ -264,6 +265,7 @@ void OccupiedVoxelMap::clear() {
   cleared_count_ = 0;
   left_out_lone_ = 0;
   left_out_full_ = 0;
+  full_ = false;
   lone_voxels_.clear();
   neighbours_ = {};
   hit_grid_ = {};
@@ -307,6 +309,12 @@ size_t OccupiedVoxelMap::bytes() const {
   for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
   return bytes;
+}
+
+std::string fullText(const MapConfig& config) {
+  return "the map has reached map/memory, " + std::to_string(config.memory) +
+         " MB: new places are not added; choose a larger voxel_size or a smaller "
+         "voxelizer/max_range, or, with memory to spare, a larger map/memory";
 }
 
 std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels) {

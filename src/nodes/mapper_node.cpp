@@ -99,6 +99,7 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
               "the stamps have jumped back: the velocity is forgotten, and the map is " +
                   std::string(cleared ? "cleared" : "kept; call reset for a new one"));
   }
+  if (mapper_.map().isFull()) log_.warn("map_full", fullText(parameters_.config.map));
   publishPose(scan, result, transforms);
   if (result.located()) publishScanEdges(scan.header.stamp);
   ScanReport report = reportOn(scan, result);
@@ -211,6 +212,7 @@ void MapperNode::diagnose(DiagnosticStatus& status) {
   status_.fill(mapper_.map(), status);
   addInput(reading, status_.droppedTold(), status);
   addTransforms(transforms, transforms_told_, status);
+  if (mapper_.map().isFull()) warn(fullText(parameters_.config.map), status);
   if (!missing.empty()) warn("services " + missing, status);
 }
 

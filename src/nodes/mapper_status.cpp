@@ -60,6 +60,8 @@ void MapperStatus::fill(const OccupiedVoxelMap& map, DiagnosticStatus& status) c
   status.add("occupied voxels of the map", map.hitVoxels().voxelCount());
   status.addf("map packed [MB]", "%.2f", static_cast<double>(map.packedBytes()) / 1e6);
   status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
+  status.add("centroids alone, left out", map.loneCentroids());
+  status.add("centroids past map/memory, left out", map.centroidsPastMemory());
   status.add("clouds refused before", last_.refused);
   status.add("scans dropped in all", last_.dropped);
   for (size_t i = 0; i < times_.size(); ++i) addTimes(kStageNames[i], times_[i], status);

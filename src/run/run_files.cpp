@@ -111,6 +111,8 @@ void addMap(const OccupiedVoxelMap& map, Report& report) {
   report.add("edge_voxels", edges);
   report.add("compression", static_cast<double>(occupied) / static_cast<double>(edges));
   report.add("cleared_voxels", uint64_t{map.clearedVoxels()});
+  report.add("lone_centroids", uint64_t{map.loneCentroids()});
+  report.add("centroids_past_memory", uint64_t{map.centroidsPastMemory()});
   report.add("map_bytes", uint64_t{map.packedBytes()});
   report.add("map_bytes_working", uint64_t{map.bytes()});
   report.add("peak_rss_mb", peakMegabytes());

@@ -50,6 +50,7 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   requireScans(bag, mapping);
   mapping.finish();
   if (const auto warning = mapping.sparseAlarm().warning()) console.print(textOf(*warning));
+  if (mapping.map().isFull()) console.print(fullText(configOf(options).map));
 }
 
 /// The results are kept even if the reference is of no use.

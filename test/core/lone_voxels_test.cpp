@@ -141,11 +141,14 @@ TEST(Memory, NoNewVoxelsEnterAMapThatIsAsLargeAsItMayBe) {
     next();
   }
   EXPECT_EQ(0U, map.centroidsPastMemory());
+  EXPECT_FALSE(map.isFull());
   const size_t bytes = map.bytes();
   const size_t cells = map.gaussians(1).size();
   insert(place, map);
   EXPECT_EQ(place.size(), map.centroidsPastMemory());
   EXPECT_EQ(cells, map.gaussians(1).size());
+  EXPECT_TRUE(map.isFull());
+  EXPECT_NE(std::string::npos, fullText(config).find("map/memory, 1 MB"));
   EXPECT_LE(map.bytes(), bytes + bytes / 10);
   const Vector3d known = room().front();
   const uint32_t slot = map.gaussians(1).slotOf(voxelAt(known, 1.0 / map.voxelSize(1)));

@@ -39,7 +39,9 @@ SimulatedTruth floorWithBlocks() {
 
 /// Twice each of these centroids in its frame, as a map that counts what is hit twice.
 OccupiedVoxelMap mapOf(const std::vector<Vector3d>& centroids) {
-  OccupiedVoxelMap map(kSize, 0.8, {}, {}, 1);
+  MapConfig config;
+  config.confirm_within = 0;
+  OccupiedVoxelMap map(kSize, 0.8, config, {}, 1);
   map.add(centroids, Vector3d(0, 0, 5));
   map.add(centroids, Vector3d(0, 0, 5));
   return map;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/Mapper unloaded in the midst of its work, and loaded again.
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "ros/mapper_fixture.hpp"
@@ -12,12 +15,12 @@
 namespace edgevox::test {
 namespace {
 
-/// A call of save_map that does not end before it is told so: its last but two file is a pipe.
+/// A call of save_map that does not end before this does: its folder is locked.
 class LongSave {
  public:
   explicit LongSave(const std::string& service)
-      : pipe_(folder_ / ("trajectory.tum.part" + std::to_string(::getpid()))) {
-    EXPECT_EQ(0, ::mkfifo(pipe_.c_str(), 0600));
+      : descriptor_(::open(folder_.path().c_str(), O_RDONLY | O_DIRECTORY)) {
+    EXPECT_EQ(0, ::flock(descriptor_, LOCK_EX));
     caller_ = std::thread([this, service] {
       SaveMap save;
       save.request.folder = folder_.path().string();
@@ -25,18 +28,27 @@ class LongSave {
     });
   }
   ~LongSave() {
-    const int both_ends = ::open(pipe_.c_str(), O_RDWR | O_NONBLOCK);
+    ::close(descriptor_);
     caller_.join();
-    ::close(both_ends);
   }
 
+  /// Whether somebody waits for the lock.
   bool begun() const {
-    return eventually([&] { return std::filesystem::exists(folder_ / "map_edges.pcd"); });
+    struct stat folder {};
+    if (::fstat(descriptor_, &folder) != 0) return false;
+    const std::string inode = ":" + std::to_string(folder.st_ino) + " ";
+    return eventually([&] {
+      std::ifstream locks("/proc/locks");
+      for (std::string line; std::getline(locks, line);) {
+        if (hasWords(line, {"->", "FLOCK", inode})) return true;
+      }
+      return false;
+    });
   }
 
  private:
   TempFolder folder_;
-  std::filesystem::path pipe_;
+  int descriptor_;
   std::thread caller_;
 };
 

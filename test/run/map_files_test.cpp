@@ -98,7 +98,9 @@ TEST(MapFiles, failuresHalfWayAreReportedWithTheirReason) {
 }
 
 TEST(MapFiles, centroidsInTheOrderOfVoxels) {
-  OccupiedVoxelMap map(0.1, 3.2, MapConfig(), EdgeConfig(), 1);
+  MapConfig config;
+  config.confirm_within = 0;
+  OccupiedVoxelMap map(0.1, 3.2, config, EdgeConfig(), 1);
   const std::vector<Eigen::Vector3d> centroids = {
       {0.05, 0.05, 0.35}, {0.95, 0.05, 0.05}, {0.07, 0.05, 0.05}, {0.05, 0.35, 0.05}};
   map.insert(centroids, Eigen::Vector3d(0, 0, 5));

@@ -28,7 +28,7 @@ size_t countReadable(const std::string& bag) {
   size_t count = 0;
   try {
     BagReader reader(bag, "/points");
-    tf2::BufferCore transforms;
+    CheckedTransforms transforms(ros::Duration(10.0), 3600.0);
     reader.readTransforms(transforms);
     reader.forEachCloud([&](size_t, const BagReader::ReadCloud& read) {
       if (read().message) ++count;
