@@ -8,7 +8,7 @@
 
 #include "benchmarks.hpp"
 #include "edgevox/edge_extractor.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "sequence.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
@@ -83,11 +83,11 @@ const std::vector<PlacedScan>& walk() {
 }
 
 /// A street of `voxels` labelled voxels, beside the building.
-const OccupiedVoxelMap& street(size_t voxels) {
-  static std::map<size_t, OccupiedVoxelMap> made;
+const MapBuilder& street(size_t voxels) {
+  static std::map<size_t, MapBuilder> made;
   const auto known = made.find(voxels);
   if (known != made.end()) return known->second;
-  OccupiedVoxelMap map(kVoxelSize, Config{}.matcher.coarsest_voxel, {}, {}, 1);
+  MapBuilder map(kVoxelSize, Config{}.matcher.coarsest_voxel, {}, {}, 1);
   for (int tile = 0; map.hitVoxels().voxelCount() < voxels; ++tile) {
     std::vector<Eigen::Vector3d> centres = streetTile(tile, kVoxelSize);
     centres.resize(std::min(centres.size(), voxels - map.hitVoxels().voxelCount()));
@@ -102,11 +102,11 @@ const OccupiedVoxelMap& street(size_t voxels) {
 /// Times `step` for the second half of the walk; before each, not timed, `before`.
 template <typename Before, typename Step>
 void timeOnStreet(State& state, size_t voxels, const Before& before, const Step& step) {
-  const OccupiedVoxelMap& base = street(voxels);
+  const MapBuilder& base = street(voxels);
   size_t changed = 0;
   while (state.KeepRunningBatch(kWalkScans / 2)) {
     state.PauseTiming();
-    OccupiedVoxelMap map = base;
+    MapBuilder map = base;
     for (size_t i = 0; i < kWalkScans; ++i) {
       const size_t known = map.hitVoxels().voxelCount();
       const bool timed = i >= kWalkScans / 2;
@@ -117,18 +117,16 @@ void timeOnStreet(State& state, size_t voxels, const Before& before, const Step&
       if (timed) changed += map.hitVoxels().voxelCount() - known;
     }
     state.counters["map_MB"] = static_cast<double>(map.bytes()) * 1e-6;
-    { const OccupiedVoxelMap freed = std::move(map); }
+    { const MapBuilder freed = std::move(map); }
     state.ResumeTiming();
   }
   state.counters["new_voxels"] =
       static_cast<double>(changed) / static_cast<double>(state.iterations());
 }
 
-void addScan(OccupiedVoxelMap& map, const PlacedScan& scan) {
-  map.add(scan.centroids, scan.sensor);
-}
+void addScan(MapBuilder& map, const PlacedScan& scan) { map.add(scan.centroids, scan.sensor); }
 
-void updateLabels(OccupiedVoxelMap& map, const PlacedScan&) { map.label(); }
+void updateLabels(MapBuilder& map, const PlacedScan&) { map.label(); }
 
 void registerOnStreet(const std::string& suffix, size_t voxels) {
   add("label", suffix, [=](State& state, const std::string&) {

@@ -4,8 +4,8 @@
 
 #include "benchmarks.hpp"
 #include "core/scan_sample.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/matcher.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
 #include "edgevox/pipeline.hpp"
 #include "sequence.hpp"
 
@@ -14,11 +14,10 @@ namespace {
 
 using benchmark::State;
 
-OccupiedVoxelMap mapOf(const Sequence& s, size_t scans, int clear_after = 0) {
+MapBuilder mapOf(const Sequence& s, size_t scans, int clear_after = 0) {
   MapConfig config = s.config.map;
   config.clear_after = clear_after;
-  OccupiedVoxelMap map(s.config.voxel_size, s.config.matcher.coarsest_voxel, config, s.config.edges,
-                       1);
+  MapBuilder map(s.config.voxel_size, s.config.matcher.coarsest_voxel, config, s.config.edges, 1);
   for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i], s.poses[i].translation());
   map.label();
   return map;
@@ -33,23 +32,23 @@ void timeSteps(State& state, const std::string& name, const Step& step, const Be
   const size_t count = s.size() - s.half();
   while (state.KeepRunningBatch(static_cast<int64_t>(count))) {
     state.PauseTiming();
-    OccupiedVoxelMap map = mapOf(s, s.half(), clear_after);
+    MapBuilder map = mapOf(s, s.half(), clear_after);
     for (size_t i = s.half(); i < s.size(); ++i) {
       between(map, s, i);
       state.ResumeTiming();
       step(map, s, i);
       state.PauseTiming();
     }
-    { const OccupiedVoxelMap freed = std::move(map); }
+    { const MapBuilder freed = std::move(map); }
     state.ResumeTiming();
   }
 }
 
-void addScan(OccupiedVoxelMap& map, const Sequence& s, size_t i) {
+void addScan(MapBuilder& map, const Sequence& s, size_t i) {
   map.add(s.centroids[i], s.poses[i].translation());
 }
 
-void labelIfDue(OccupiedVoxelMap& map, const Sequence&, size_t) {
+void labelIfDue(MapBuilder& map, const Sequence&, size_t) {
   if (map.labelDue()) map.label();
 }
 
@@ -62,7 +61,7 @@ void insertClearing(State& state, const std::string& name) {
 
 void label(State& state, const std::string& name) {
   timeSteps(
-      state, name, [](OccupiedVoxelMap& map, const Sequence&, size_t) { map.label(); }, addScan);
+      state, name, [](MapBuilder& map, const Sequence&, size_t) { map.label(); }, addScan);
 }
 
 ScanSample sampleOf(const Sequence& s, size_t i) {
@@ -77,23 +76,25 @@ ScanSample sampleOf(const Sequence& s, size_t i) {
 
 void search(State& state, const std::string& name) {
   const Sequence& s = sequence(name);
-  const OccupiedVoxelMap map = mapOf(s, s.sample());
+  const MapBuilder map = mapOf(s, s.sample());
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
   const Pose guess = s.predicted(s.sample());
-  for (auto _ : state) benchmark::DoNotOptimize(matcher.search(map, sample, points, guess));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(matcher.search(map.matchMap(), sample, points, guess));
 }
 
 void refine(State& state, const std::string& name) {
   const Sequence& s = sequence(name);
-  const OccupiedVoxelMap map = mapOf(s, s.sample());
+  const MapBuilder map = mapOf(s, s.sample());
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
-  constexpr int kLevels = OccupiedVoxelMap::kGaussianLevels;
-  const Pose found = matcher.search(map, sample, points, s.predicted(s.sample()));
-  for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map, sample, found, kLevels, false));
+  constexpr int kLevels = MapBuilder::kSurfaceLevels;
+  const Pose found = matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, found, kLevels, false));
 }
 
 /// All stages, a scan.

@@ -7,9 +7,9 @@
 
 #include "edgevox/clock_watch.hpp"
 #include "edgevox/config.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/matcher.hpp"
 #include "edgevox/motion.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
 #include "edgevox/recent_edges.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "edgevox/voxel.hpp"
@@ -89,7 +89,7 @@ class Mapper {
 
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
 
-  const OccupiedVoxelMap& map() const { return map_; }
+  const MapBuilder& map() const { return map_; }
   /// Of the last located scan.
   const RecentEdges& recentEdges() const { return recent_edges_; }
   /// Brings the labels up to date, for output.
@@ -122,7 +122,7 @@ class Mapper {
   Clock clock_;
   ClockWatch clock_watch_;  // of the located scans
   Matcher matcher_;
-  OccupiedVoxelMap map_;
+  MapBuilder map_;
   RecentEdges recent_edges_;
   Pose T_map_sensor_ = Pose::Identity();  // at the stamp of the last located scan
   std::optional<Located> last_;           // none if the motion is not known

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "edgevox/config.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/match_map.hpp"
 #include "edgevox/voxel.hpp"
 
 namespace edgevox {
@@ -57,37 +57,36 @@ class Matcher {
 
   /// From the guess alone, then from restarts around it until one is accepted or the work is too
   /// much.
-  MatchResult match(const OccupiedVoxelMap& map, const ScanSample& sample,
+  MatchResult match(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
   /// From the guess alone.
-  MatchResult align(const OccupiedVoxelMap& map, const ScanSample& sample,
+  MatchResult align(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
 
   /// The discrete search alone, with the first `points` of the sample.
-  Pose search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+  Pose search(const MatchMap& map, const ScanSample& sample, size_t points,
               const Pose& guess) const {
     uint64_t look_ups = 0;
     return search(map, sample, points, guess, look_ups);
   }
   /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set. It ends
   /// where the pose leaves the grid's range.
-  MatchResult refine(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& guess,
-                     int coarsest, bool all_voxels) const;
+  MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int coarsest,
+                     bool all_voxels) const;
   /// Of the first `points` of a sample the fraction in occupied voxels of level 1, of those in
   /// occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If less
   /// than a quarter of them is known, of that quarter.
-  static double hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+  static double hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
                          const Pose& T_map_sensor);
 
  private:
-  Pose search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
-              const Pose& guess, uint64_t& look_ups) const;
-  MatchResult verified(const OccupiedVoxelMap& map, const ScanSample& sample,
-                       const MatchRequest& request, MatchResult result) const;
-  void restart(const OccupiedVoxelMap& map, const ScanSample& sample, const MatchRequest& request,
+  Pose search(const MatchMap& map, const ScanSample& sample, size_t points, const Pose& guess,
+              uint64_t& look_ups) const;
+  MatchResult verified(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+                       MatchResult result) const;
+  void restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                MatchResult& best) const;
-  Pose climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sample,
-                        const Pose& guess) const;
+  Pose climbAsPublished(const MatchMap& map, const ScanSample& sample, const Pose& guess) const;
 
   MatcherConfig config_;
 };

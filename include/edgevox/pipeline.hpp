@@ -33,7 +33,7 @@ class Pipeline {
   PipelineResult process(const CloudView& cloud, const ScanPrior& prior = {});
 
   Mapper& mapper() { return mapper_; }
-  const OccupiedVoxelMap& map() const { return mapper_.map(); }
+  const MapBuilder& map() const { return mapper_.map(); }
   /// Over all scans.
   const SparseAlarm& sparseAlarm() const { return sparse_alarm_; }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "edgevox/gaussian_level.hpp"
+#include "edgevox/moment_level.hpp"
 
 namespace edgevox {
 namespace {
@@ -13,12 +13,13 @@ struct Candidates {
   int edges = 0;              // not flat
 };
 
-bool isFlat(const GaussianLevel::Cell& cell) { return cell.flat_axis != GaussianLevel::kNotFlat; }
+bool isFlat(const MomentLevel::Cell& cell) { return cell.flat_axis != MomentLevel::kNotFlat; }
 
-Candidates countCandidates(const GaussianLevel& level, size_t block, int min_hits) {
+Candidates countCandidates(const MomentLevel& level, const SurfaceLevel& surfaces, size_t block,
+                           int min_hits) {
   Candidates candidates;
-  level.forEachInBlock(block, [&](uint32_t slot) {
-    const GaussianLevel::Cell& cell = level.cell(slot);
+  surfaces.forEachInBlock(block, [&](uint32_t slot) {
+    const MomentLevel::Cell& cell = level.cell(slot);
     if (cell.hits < min_hits) return;
     if (isFlat(cell)) {
       ++candidates.flat[static_cast<size_t>(cell.flat_axis)];
@@ -31,12 +32,13 @@ Candidates countCandidates(const GaussianLevel& level, size_t block, int min_hit
 
 }  // namespace
 
-void chooseAnchors(GaussianLevel& level, size_t block, const AnchorRule& rule) {
-  const Candidates candidates = countCandidates(level, block, rule.min_hits);
+void chooseAnchors(MomentLevel& level, const SurfaceLevel& surfaces, size_t block,
+                   const AnchorRule& rule) {
+  const Candidates candidates = countCandidates(level, surfaces, block, rule.min_hits);
   const int flat = candidates.flat[0] + candidates.flat[1] + candidates.flat[2];
   const int missing = std::max(0, rule.count - flat);
-  level.forEachInBlock(block, [&](uint32_t slot) {
-    GaussianLevel::Cell& cell = level.cell(slot);
+  surfaces.forEachInBlock(block, [&](uint32_t slot) {
+    MomentLevel::Cell& cell = level.cell(slot);
     const double lot = lotOf(level.voxel(slot));
     if (cell.hits < rule.min_hits) {
       cell.anchor = false;

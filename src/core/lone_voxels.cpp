@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 
 namespace edgevox {
 namespace {
@@ -61,10 +61,12 @@ void RecentVoxels::clear() {
 }
 
 /// Stray returns, rain and dust would else stay for ever, at the price of blocks of their own.
-void OccupiedVoxelMap::leaveOutLone() {
+void MapBuilder::leaveOutLone() {
   if (config_.confirm_within == 0) return;
   lone_voxels_.nextScan();
-  const auto is_known = [this](const VoxelIndex& v) { return occupied_[1].test(coarser(v, 1)); };
+  const auto is_known = [this](const VoxelIndex& v) {
+    return match_map_.occupied(1).test(coarser(v, 1));
+  };
   if (std::all_of(voxels_.begin(), voxels_.end(), is_known)) return;
   neighbours_.set(voxels_);
   const size_t all = voxels_.size();
@@ -76,17 +78,17 @@ void OccupiedVoxelMap::leaveOutLone() {
   left_out_lone_ += all - voxels_.size();
 }
 
-bool OccupiedVoxelMap::isBesideEstablished(const VoxelIndex& parent) const {
-  const GaussianLevel& g = gaussians(1);
-  BitReader<8> occupied(occupied_[1]);
+bool MapBuilder::isBesideEstablished(const VoxelIndex& parent) const {
+  const SurfaceLevel& surfaces = match_map_.surfaces(1);
+  BitReader<8> occupied(match_map_.occupied(1));
   return areAround(parent, 1, [&](const VoxelIndex& v) {
-    const uint32_t slot = occupied.test(v) ? g.slotOf(v) : SlotGrid<8>::kNone;
-    return slot != SlotGrid<8>::kNone && g.cell(slot).hits >= kEstablished;
+    const uint32_t slot = occupied.test(v) ? surfaces.slotOf(v) : SlotGrid<8>::kNone;
+    return slot != SlotGrid<8>::kNone && moments(1).cell(slot).hits >= kEstablished;
   });
 }
 
 /// A map as large as it may be keeps what it knows up to date.
-void OccupiedVoxelMap::leaveOutNew() {
+void MapBuilder::leaveOutNew() {
   const size_t all = voxels_.size();
   keepPoints([this](const VoxelIndex& v) { return isHit(v); });
   left_out_full_ += all - voxels_.size();

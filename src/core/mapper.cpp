@@ -160,7 +160,7 @@ void Mapper::align(const VoxelScan& scan, const SweepTime& sweep, Located& now,
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
   if (last_) twist = twistInSweep(twistTo(now.time, now.T_map_sensor));
-  const auto refined = matcher_.refine(map_, deskewed(scan, positions, {sweep, twist}),
+  const auto refined = matcher_.refine(map_.matchMap(), deskewed(scan, positions, {sweep, twist}),
                                        now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
   if (!inGridRange(refined.T_map_sensor, config_.voxel_size)) return;  // it ran away
   now.T_map_sensor = refined.T_map_sensor;
@@ -216,13 +216,13 @@ MatchResult Mapper::locate(const ScanSample& sample, const Pose& guess, double t
   const bool published = config_.matcher.mode == MatcherMode::kPublished;
 
   result.status = ScanStatus::kTracked;
-  MatchResult match = matcher_.align(map_, sample, request);
+  MatchResult match = matcher_.align(map_.matchMap(), sample, request);
   const double sigma = worstSigma(match.information, range);
   if (!match.accepted || (!published && needsFallback(match, sigma))) {
     result.status = ScanStatus::kFallback;
     request.all_voxels = true;
     map_.prepareAll();
-    match = matcher_.match(map_, sample, request);
+    match = matcher_.match(map_.matchMap(), sample, request);
   }
   if (match.accepted) {
     hit_ratios_.add(match.hit_ratio);

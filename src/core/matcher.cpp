@@ -41,7 +41,7 @@ Pose apply(const Pose& pose, const Move& move) {
 size_t prefix(const ScanSample& sample, size_t count) { return std::min(sample.size(), count); }
 
 /// Number of the first `count` points that land in occupied voxels of a level.
-int score(const OccupiedVoxelMap& map, int level, const ScanSample& sample, size_t count,
+int score(const MatchMap& map, int level, const ScanSample& sample, size_t count,
           const Pose& pose) {
   const BitGrid<8>& occupied = map.occupied(level);
   const double inverse_size = 1.0 / map.voxelSize(level);
@@ -56,7 +56,7 @@ int score(const OccupiedVoxelMap& map, int level, const ScanSample& sample, size
 }
 
 /// Whether the points of a sample, seen from a pose in the grid's range, have indices of voxels.
-bool isInGridRange(const OccupiedVoxelMap& map, const ScanSample& sample) {
+bool isInGridRange(const MatchMap& map, const ScanSample& sample) {
   return std::all_of(sample.begin(), sample.end(), [&](const Eigen::Vector3d& point) {
     return inGridRange(point, map.voxelSize(0));
   });
@@ -141,11 +141,11 @@ double largestStep(const Pose& from, const Pose& to, double range) {
 /// A point of a sample and the voxels that it is matched to.
 struct NearPoint {
   Eigen::Vector3d point;
-  GaussianLevel::Around around;
+  SurfaceLevel::Around around;
 };
 
 /// The first `wanted` points of the sample that have a voxel to match at this pose.
-std::vector<NearPoint> pointsNear(const GaussianLevel& level, const ScanSample& sample,
+std::vector<NearPoint> pointsNear(const SurfaceLevel& level, const ScanSample& sample,
                                   size_t wanted, const Pose& pose, bool all_voxels,
                                   uint64_t& look_ups) {
   std::vector<NearPoint> near;
@@ -161,8 +161,8 @@ std::vector<NearPoint> pointsNear(const GaussianLevel& level, const ScanSample& 
 }
 
 /// Points that have moved to another voxel are given what is around that.
-NormalEquations linearise(const GaussianLevel& level, std::vector<NearPoint>& near,
-                          const Pose& pose, bool all_voxels) {
+NormalEquations linearise(const SurfaceLevel& level, std::vector<NearPoint>& near, const Pose& pose,
+                          bool all_voxels) {
   NormalEquations equations;
   for (NearPoint& of_scan : near) {
     const Eigen::Vector3d lever = pose.linear() * of_scan.point;
@@ -172,7 +172,7 @@ NormalEquations linearise(const GaussianLevel& level, std::vector<NearPoint>& ne
     if (voxel != of_scan.around.voxel) of_scan.around = level.around(voxel, all_voxels);
     float distance = 0;
     const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
-    const VoxelGaussian* g = level.nearest(of_scan.around, point_f, to_sensor, distance);
+    const Surface* g = level.nearest(of_scan.around, point_f, to_sensor, distance);
     if (g == nullptr) continue;
     const double robust = kRobustScale / (kRobustScale + distance);
     const auto& m = g->information;
@@ -217,7 +217,7 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
   return prefix(sample, static_cast<size_t>(config_.refine_points));
 }
 
-MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample,
+MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
   const bool possible = inGridRange(request.guess, map.voxelSize(0)) && isInGridRange(map, sample);
@@ -226,7 +226,7 @@ MatchResult Matcher::match(const OccupiedVoxelMap& map, const ScanSample& sample
 }
 
 /// The refinement alone where the guess was good, else the better fit of that and the search.
-MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample,
+MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result;
   result.T_map_sensor = request.guess;
@@ -236,9 +236,8 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
     return verified(map, sample, request, result);
   }
   const auto refineFrom = [&](const Pose& start) {
-    return verified(
-        map, sample, request,
-        refine(map, sample, start, OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
+    return verified(map, sample, request,
+                    refine(map, sample, start, MatchMap::kSurfaceLevels, request.all_voxels));
   };
   result = refineFrom(request.guess);
   const double step =
@@ -256,7 +255,7 @@ MatchResult Matcher::align(const OccupiedVoxelMap& map, const ScanSample& sample
   return searched.fit > result.fit ? searched : result;
 }
 
-MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sample,
+MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
   if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
   const Pose moved = request.guess.inverse() * result.T_map_sensor;
@@ -268,8 +267,8 @@ MatchResult Matcher::verified(const OccupiedVoxelMap& map, const ScanSample& sam
   return result;
 }
 
-void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
-                      const MatchRequest& request, MatchResult& best) const {
+void Matcher::restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+                      MatchResult& best) const {
   const auto points = static_cast<size_t>(config_.restart_points);
   const size_t count = prefix(sample, points);
   const auto coarseScore = [&](const Pose& pose) {
@@ -288,7 +287,7 @@ void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
     MatchResult candidate =
         verified(map, sample, request,
                  refine(map, sample, search(map, sample, all_points, found, look_ups),
-                        OccupiedVoxelMap::kGaussianLevels, request.all_voxels));
+                        MatchMap::kSurfaceLevels, request.all_voxels));
     look_ups += candidate.look_ups;
     candidate.restarts = i;
     if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
@@ -298,7 +297,7 @@ void Matcher::restart(const OccupiedVoxelMap& map, const ScanSample& sample,
   best.look_ups = look_ups;
 }
 
-Pose Matcher::search(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t points,
                      const Pose& guess, uint64_t& look_ups) const {
   const size_t count = prefix(sample, points);
   if (count == 0) return guess;
@@ -318,8 +317,8 @@ Pose Matcher::search(const OccupiedVoxelMap& map, const ScanSample& sample, size
   return pose;
 }
 
-MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sample,
-                            const Pose& guess, int coarsest, bool all_voxels) const {
+MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample, const Pose& guess,
+                            int coarsest, bool all_voxels) const {
   MatchResult result;
   Pose& pose = result.T_map_sensor;
   pose = guess;
@@ -331,10 +330,10 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
     Pose near_pose;
     for (int step = 0; step < kRefineSteps[level]; ++step) {
       if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {
-        near = pointsNear(map.gaussians(level), sample, wanted, pose, all_voxels, result.look_ups);
+        near = pointsNear(map.surfaces(level), sample, wanted, pose, all_voxels, result.look_ups);
         near_pose = pose;
       }
-      const auto equations = linearise(map.gaussians(level), near, pose, all_voxels);
+      const auto equations = linearise(map.surfaces(level), near, pose, all_voxels);
       result.look_ups += near.size();
       result.matches = equations.matches;
       result.information = equations.h;
@@ -355,7 +354,7 @@ MatchResult Matcher::refine(const OccupiedVoxelMap& map, const ScanSample& sampl
 
 /// Levels coarse to fine, one voxel and 0.5 degree * 2^level a step; a last pass at a quarter
 /// voxel and 0.125 degree.
-Pose Matcher::climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sample,
+Pose Matcher::climbAsPublished(const MatchMap& map, const ScanSample& sample,
                                const Pose& guess) const {
   const size_t count = prefix(sample, static_cast<size_t>(config_.search_points));
   const double half_degree = 0.5 * M_PI / 180.0;
@@ -377,7 +376,7 @@ Pose Matcher::climbAsPublished(const OccupiedVoxelMap& map, const ScanSample& sa
   return pose;
 }
 
-double Matcher::hitRatio(const OccupiedVoxelMap& map, const ScanSample& sample, size_t points,
+double Matcher::hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
                          const Pose& T_map_sensor) {
   const size_t count = prefix(sample, points);
   if (count == 0) return 0.0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "line_of_sight.hpp"
 
 namespace edgevox {
@@ -29,7 +29,7 @@ bool anyChild(const VoxelIndex& v, const Test& test) {
 
 }  // namespace
 
-struct OccupiedVoxelMap::Sight {
+struct MapBuilder::Sight {
   Eigen::Vector3d sensor;
   Eigen::Vector3d end;
   double length;
@@ -54,7 +54,7 @@ struct OccupiedVoxelMap::Sight {
   }
 };
 
-void OccupiedVoxelMap::clearSeenThrough(const Eigen::Vector3d& sensor) {
+void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
   const double inverse_size = 1.0 / voxelSize(1);
   const size_t stride = 1 + centroids_.size() / (kLines + 1);
   cleared_.clear();
@@ -62,17 +62,17 @@ void OccupiedVoxelMap::clearSeenThrough(const Eigen::Vector3d& sensor) {
     const Sight sight(sensor, centroids_[i]);
     const double reach = sight.length - kBehind * voxel_size_;
     if (!(reach > 0)) continue;
-    forEachOnLine(occupied_[1], sensor * inverse_size,
+    forEachOnLine(match_map_.occupied(1), sensor * inverse_size,
                   (sensor + reach * sight.direction) * inverse_size,
                   [&](const VoxelIndex& parent) { lookThrough(sight, parent); });
   }
   for (const VoxelIndex& v : cleared_) remove(v);
 }
 
-void OccupiedVoxelMap::lookThrough(const Sight& sight, const VoxelIndex& parent) {
-  const GaussianLevel& g = gaussians(1);
-  const uint32_t parent_slot = g.slotOf(parent);
-  if (g.cell(parent_slot).last_scan == scans_) return;  // then all its children are hit or beside
+void MapBuilder::lookThrough(const Sight& sight, const VoxelIndex& parent) {
+  const uint32_t parent_slot = match_map_.surfaces(1).slotOf(parent);
+  if (moments(1).cell(parent_slot).last_scan == scans_)
+    return;  // then all its children are hit or beside
   const auto block = static_cast<size_t>(hit_grid_.findBlock(coarser(parent, 2)));
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex v = child(parent, i);
@@ -87,16 +87,16 @@ void OccupiedVoxelMap::lookThrough(const Sight& sight, const VoxelIndex& parent)
 
 /// Lines that graze a surface pass its voxels, too, and noise lifts points off it: neither ends
 /// far behind the surface.
-bool OccupiedVoxelMap::isSeenThrough(const Sight& sight, uint32_t parent_slot,
-                                     const Eigen::Vector3d& point) const {
+bool MapBuilder::isSeenThrough(const Sight& sight, uint32_t parent_slot,
+                               const Eigen::Vector3d& point) const {
   if (!sight.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
-  const Eigen::Vector3d normal = gaussians(1).normal(parent_slot);
+  const Eigen::Vector3d normal = moments(1).normal(parent_slot);
   return normal.isZero() ? sight.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
                          : sight.crosses(point, normal, kBehind * voxel_size_);
 }
 
 /// Whether this scan hit one of the 26 neighbours.
-bool OccupiedVoxelMap::isHitBeside(const VoxelIndex& v) const {
+bool MapBuilder::isHitBeside(const VoxelIndex& v) const {
   for (int i = 0; i < 27; ++i) {
     const uint32_t slot = hit_grid_.find({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1});
     if (slot != SlotGrid<8>::kNone && hits_[slot].last_scan == scans_) return true;
@@ -104,14 +104,16 @@ bool OccupiedVoxelMap::isHitBeside(const VoxelIndex& v) const {
   return false;
 }
 
-void OccupiedVoxelMap::remove(const VoxelIndex& v) {
+void MapBuilder::remove(const VoxelIndex& v) {
   if (hit_voxels_.reset(v)) {
     changed_.set(v);
     ++cleared_count_;
   }
   edge_candidates_.reset(v);
-  if (edge_voxels_.reset(v)) countEdge(1, coarser(v, 1), -1);
-  for (int l = 1; l <= kGaussianLevels; ++l) touch(l, gaussians(l).slotOf(coarser(v, l)));
+  if (match_map_.edgeVoxels().reset(v)) countEdge(1, coarser(v, 1), -1);
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    touch(l, match_map_.surfaces(l).slotOf(coarser(v, l)));
+  }
   subtractMoments(v);
   const uint32_t slot = hit_grid_.find(v);
   hits_[slot] = {};
@@ -120,8 +122,8 @@ void OccupiedVoxelMap::remove(const VoxelIndex& v) {
   VoxelIndex at = coarser(v, 1);
   bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
   for (int l = 1; !left; ++l) {
-    if (l <= kGaussianLevels) level(l).erase(at);
-    BitGrid<8>& bits = occupied_[static_cast<size_t>(l)];
+    if (l <= kSurfaceLevels) momentLevel(l).erase(at, match_map_.surfaces(l));
+    BitGrid<8>& bits = match_map_.occupied(l);
     bits.reset(at);
     if (l + 1 == levels()) return;
     at = coarser(at, 1);
@@ -133,39 +135,38 @@ void OccupiedVoxelMap::remove(const VoxelIndex& v) {
 /// difference of large sums would be mostly rounding. How the points of a voxel scatter is not
 /// kept; those left are taken for their share of what scatters within all voxels of the coarser
 /// one. Voxels with two sides stay as they are: of which the points were is not known.
-void OccupiedVoxelMap::subtractMoments(const VoxelIndex& v) {
+void MapBuilder::subtractMoments(const VoxelIndex& v) {
   const VoxelIndex parent = coarser(v, 1);
   const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
-  GaussianLevel& g = level(1);
-  const uint32_t slot = g.slotOf(parent);
-  if (g.hasTwin(slot)) return;
+  const uint32_t slot = match_map_.surfaces(1).slotOf(parent);
+  if (match_map_.surfaces(1).hasBack(slot)) return;
   Moments all;
   Moments left;
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex c = child(parent, i);
     if (!isHit(c)) continue;
-    const Moments moments = Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
-    all += moments;
-    if (c != v) left += moments;
+    const Moments of_child = Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
+    all += of_child;
+    if (c != v) left += of_child;
   }
-  left.outer += left.count / all.count * (g.moments(slot).outer - all.outer);
-  g.setMoments(slot, left);
-  for (int l = 2; l <= kGaussianLevels; ++l) sumChildren(l, coarser(v, l));
+  left.outer += left.count / all.count * (moments(1).moments(slot).outer - all.outer);
+  momentLevel(1).setMoments(slot, left);
+  for (int l = 2; l <= kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
 }
 
-void OccupiedVoxelMap::sumChildren(int l, const VoxelIndex& v) {
-  const GaussianLevel& finer = gaussians(l - 1);
+void MapBuilder::sumChildren(int l, const VoxelIndex& v) {
+  const SurfaceLevel& finer = match_map_.surfaces(l - 1);
   const Eigen::Vector3d origin = voxelCentre(v, voxelSize(l));
   Moments sum;
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex c = child(v, i);
     const uint32_t slot = finer.slotOf(c);
     if (slot == SlotGrid<8>::kNone) continue;
-    if (finer.hasTwin(slot)) return;
-    sum += finer.moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
+    if (finer.hasBack(slot)) return;
+    sum += moments(l - 1).moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
   }
-  const uint32_t slot = level(l).slotOf(v);
-  if (!level(l).hasTwin(slot)) level(l).setMoments(slot, sum);
+  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
+  if (!match_map_.surfaces(l).hasBack(slot)) momentLevel(l).setMoments(slot, sum);
 }
 
 }  // namespace edgevox

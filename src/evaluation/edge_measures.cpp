@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "edgevox/edge_extractor.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/recent_edges.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
@@ -154,7 +154,7 @@ struct LabelledMap {
 LabelledMap buildMap(const Recording& recording, const Config& config, double voxel_size,
                      const Pose& T_map_grid) {
   Voxelizer voxelizer(config.voxelizer, voxel_size);
-  OccupiedVoxelMap map(voxel_size, kMapLevels * voxel_size, config.map, config.edges, 1);
+  MapBuilder map(voxel_size, kMapLevels * voxel_size, config.map, config.edges, 1);
   LabelledMap labelled;
   const Pose T_grid_map = T_map_grid.inverse();
   for (size_t i = 0; i < recording.scans.size(); ++i) {

@@ -65,7 +65,7 @@ LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& ed
   return labelled;
 }
 
-LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid) {
+LabelledVoxels labelledVoxels(const MapBuilder& map, const Pose& T_map_grid) {
   return labelledVoxels(map.hitVoxels(), map.edgeVoxels(), map.voxelSize(0), T_map_grid);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "edgevox/block_grid.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/voxel.hpp"
 #include "evaluation/recording.hpp"
 
@@ -35,7 +35,7 @@ LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const Vox
 LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& edges,
                               double voxel_size, const Pose& T_map_grid);
 /// Of the voxels with enough hits of a map in a grid of its own.
-LabelledVoxels labelledVoxels(const OccupiedVoxelMap& map, const Pose& T_map_grid);
+LabelledVoxels labelledVoxels(const MapBuilder& map, const Pose& T_map_grid);
 
 /// Centroids of a scan, each at the pose of its time, map frame [m].
 std::vector<Eigen::Vector3d> placedCentroids(const Recording& recording, size_t scan,

@@ -81,7 +81,7 @@ class Capture {
         matcher_(config.matcher),
         relative_hit_ratio_(config.matcher.relative_hit_ratio) {}
 
-  double share(const OccupiedVoxelMap& map, const Run& run) {
+  double share(const MapBuilder& map, const Run& run) {
     size_t trials = 0;
     size_t found = 0;
     for (size_t i = 0; i < options_.capture_scans; ++i) {
@@ -90,7 +90,7 @@ class Capture {
       const ScanSample sample = sampleOf(scan);
       sim::Random random(1, scan);  // the same guesses for every map
       for (size_t trial = 0; trial < options_.capture_trials; ++trial, ++trials) {
-        found += isFound(map, sample, *run.poses[scan], random) ? 1 : 0;
+        found += isFound(map.matchMap(), sample, *run.poses[scan], random) ? 1 : 0;
       }
     }
     return static_cast<double>(found) / static_cast<double>(trials);
@@ -108,7 +108,7 @@ class Capture {
     return sample;
   }
 
-  bool isFound(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& truth,
+  bool isFound(const MatchMap& map, const ScanSample& sample, const Pose& truth,
                sim::Random& random) const {
     MatchRequest request;
     request.guess = truth;
@@ -157,7 +157,7 @@ class MapTable {
   const Table& table() const { return table_; }
 
  private:
-  void addSize(const OccupiedVoxelMap& map) {
+  void addSize(const MapBuilder& map) {
     const auto bytes = static_cast<double>(map.packedBytes());
     if (table_.rows() == 1) all_bytes_ = bytes;
     table_.set("map_mb", bytes / 1e6);

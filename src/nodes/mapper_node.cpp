@@ -174,7 +174,7 @@ void MapperNode::publishMap() {
 bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
   const std::string folder = request.folder.empty() ? parameters_.output : request.folder;
   std::unique_lock<std::mutex> lock(mutex_);
-  OccupiedVoxelMap map = mapper_.map();
+  MapBuilder map = mapper_.map();
   const RunRecord run = run_;
   lock.unlock();
   try {

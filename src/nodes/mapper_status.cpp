@@ -47,7 +47,7 @@ void MapperStatus::summarise(DiagnosticStatus& status) const {
   }
 }
 
-void MapperStatus::fill(const OccupiedVoxelMap& map, DiagnosticStatus& status) const {
+void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   summarise(status);
   status.add("scans", scans_);
   for (const auto& [name, count] : counts_) status.add("scans " + name, count);

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "nodes/diagnostics.hpp"
 #include "run/run_record.hpp"
 
@@ -22,7 +22,7 @@ class MapperStatus {
   void setOdometryError(const std::string& error) { odometry_error_ = error; }
 
   /// Fills all but the input.
-  void fill(const OccupiedVoxelMap& map, DiagnosticStatus& status) const;
+  void fill(const MapBuilder& map, DiagnosticStatus& status) const;
   uint64_t& droppedTold() { return dropped_told_; }
 
  private:

@@ -7,7 +7,7 @@
 namespace edgevox {
 
 std::string saveRun(const std::string& folder, const Config& config, const RunRecord& run,
-                    OccupiedVoxelMap& map) {
+                    MapBuilder& map) {
   if (folder.empty()) {
     throw FileError(
         "no folder to save the map to: give one in the request, or set the parameter "

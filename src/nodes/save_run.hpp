@@ -4,7 +4,7 @@
 #include <string>
 
 #include "edgevox/config.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "run/run_record.hpp"
 
 namespace edgevox {
@@ -12,6 +12,6 @@ namespace edgevox {
 /// Labels the map to its end and writes the files that map_bag writes. `folder` must be absolute
 /// and is made if need be. Gives a line that says what was written; throws FileError.
 std::string saveRun(const std::string& folder, const Config& config, const RunRecord& run,
-                    OccupiedVoxelMap& map);
+                    MapBuilder& map);
 
 }  // namespace edgevox

@@ -17,7 +17,7 @@ bool MapPublisher::Topic::isDue(uint64_t current) const {
   return version != current && publisher.getNumSubscribers() > 0;
 }
 
-MapPublisher::Content MapPublisher::collect(const OccupiedVoxelMap& map, uint64_t version) {
+MapPublisher::Content MapPublisher::collect(const MapBuilder& map, uint64_t version) {
   Content content;
   content.has_boxes = boxes_.isDue(version);
   content.has_edges = edges_.isDue(version);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 
 namespace edgevox {
 
@@ -29,7 +29,7 @@ class MapPublisher {
     bool has_occupied = false;
   };
   /// `version` differs whenever the map does.
-  Content collect(const OccupiedVoxelMap& map, uint64_t version);
+  Content collect(const MapBuilder& map, uint64_t version);
   void publish(const Content& content, double voxel_size, const ros::Time& stamp) const;
 
  private:

@@ -104,7 +104,7 @@ double peakMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void addMap(const OccupiedVoxelMap& map, Report& report) {
+void addMap(const MapBuilder& map, Report& report) {
   const uint64_t occupied = map.hitVoxels().voxelCount();
   const uint64_t edges = map.edgeVoxels().voxelCount();
   report.add("occupied_voxels", occupied);
@@ -162,7 +162,7 @@ Report errorsReport(const TrajectoryErrors& errors) {
   return report;
 }
 
-Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
+Report summarise(const RunRecord& run, const MapBuilder& map,
                  const std::optional<TrajectoryErrors>& errors) {
   Report report;
   addScans(run, report);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "edgevox/config.hpp"
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/trajectory_evaluation.hpp"
 #include "run/report.hpp"
 #include "run/run_record.hpp"
@@ -22,7 +22,7 @@ std::string errorsCsv(const TrajectoryErrors& errors);
 /// The same in a few numbers.
 Report errorsReport(const TrajectoryErrors& errors);
 
-Report summarise(const RunRecord& run, const OccupiedVoxelMap& map,
+Report summarise(const RunRecord& run, const MapBuilder& map,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
 /// With all folders above it. Throws FileError.
@@ -31,8 +31,8 @@ void makeFolder(const std::filesystem::path& folder);
 struct RunResults {
   const Config& config;
   const RunRecord& run;
-  const OccupiedVoxelMap& map;  ///< with its labels up to date
-  bool occupied_too = false;    ///< also write map_occupied.ply
+  const MapBuilder& map;      ///< with its labels up to date
+  bool occupied_too = false;  ///< also write map_occupied.ply
   std::optional<TrajectoryErrors> errors = std::nullopt;
 };
 

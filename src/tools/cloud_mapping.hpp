@@ -25,7 +25,7 @@ class CloudMapping {
   void finish() { pipeline_.mapper().finishLabels(); }
 
   const RunRecord& run() const { return run_; }
-  const OccupiedVoxelMap& map() const { return pipeline_.map(); }
+  const MapBuilder& map() const { return pipeline_.map(); }
   const SparseAlarm& sparseAlarm() const { return pipeline_.sparseAlarm(); }
 
  private:

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "support/random.hpp"
 #include "support/scans.hpp"
 
@@ -20,8 +20,8 @@ constexpr double kSize = 0.2;      // [m]
 constexpr int kConfirmWithin = 6;  // [scans]
 const Vector3d kLone(30.1, 20.1, 5.1);
 
-OccupiedVoxelMap makeMap(const MapConfig& config) {
-  return OccupiedVoxelMap(kSize, 3.2, config, EdgeConfig{}, 1);
+MapBuilder makeMap(const MapConfig& config) {
+  return MapBuilder(kSize, 3.2, config, EdgeConfig{}, 1);
 }
 
 MapConfig confirming(int scans) {
@@ -44,15 +44,15 @@ Centroids room() {
   return points;
 }
 
-bool isInMap(const OccupiedVoxelMap& map, const Vector3d& point) {
-  return map.occupied(1).test(voxelAt(point, 1.0 / map.voxelSize(1)));
+bool isInMap(const MapBuilder& map, const Vector3d& point) {
+  return map.matchMap().occupied(1).test(voxelAt(point, 1.0 / map.voxelSize(1)));
 }
 
-void insert(const Centroids& points, OccupiedVoxelMap& map) { map.insert(points, {0, 0, 1.5}); }
+void insert(const Centroids& points, MapBuilder& map) { map.insert(points, {0, 0, 1.5}); }
 
 TEST(LonePoint, EntersTheMapWhenALaterScanConfirmsIt) {
   for (int pause = 0; pause < kConfirmWithin / 2; ++pause) {
-    OccupiedVoxelMap map = makeMap(confirming(kConfirmWithin));
+    MapBuilder map = makeMap(confirming(kConfirmWithin));
     insert({kLone}, map);
     EXPECT_FALSE(isInMap(map, kLone));
     EXPECT_EQ(1U, map.loneCentroids());
@@ -64,7 +64,7 @@ TEST(LonePoint, EntersTheMapWhenALaterScanConfirmsIt) {
 }
 
 TEST(LonePoint, IsForgottenWithoutASecondHit) {
-  OccupiedVoxelMap map = makeMap(confirming(kConfirmWithin));
+  MapBuilder map = makeMap(confirming(kConfirmWithin));
   for (int round = 0; round < 5; ++round) {
     insert({kLone}, map);
     for (int i = 0; i < kConfirmWithin; ++i) insert({}, map);
@@ -74,7 +74,7 @@ TEST(LonePoint, IsForgottenWithoutASecondHit) {
 }
 
 TEST(LonePoint, EntersAtOnceIfAsked) {
-  OccupiedVoxelMap map = makeMap(confirming(0));
+  MapBuilder map = makeMap(confirming(0));
   insert({kLone}, map);
   EXPECT_TRUE(isInMap(map, kLone));
   EXPECT_EQ(0U, map.loneCentroids());
@@ -82,7 +82,7 @@ TEST(LonePoint, EntersAtOnceIfAsked) {
 
 TEST(LonePoint, HasNoTwoOthersOfItsScanBesideIt) {
   const Vector3d step(2 * kSize, 0, 0);
-  OccupiedVoxelMap map = makeMap(confirming(kConfirmWithin));
+  MapBuilder map = makeMap(confirming(kConfirmWithin));
   insert({kLone, kLone + step}, map);
   EXPECT_FALSE(isInMap(map, kLone));
   EXPECT_EQ(2U, map.loneCentroids());
@@ -91,7 +91,7 @@ TEST(LonePoint, HasNoTwoOthersOfItsScanBesideIt) {
 }
 
 TEST(LonePoint, IsNotAloneBesideWhatTheMapKnowsWell) {
-  OccupiedVoxelMap map = makeMap(confirming(kConfirmWithin));
+  MapBuilder map = makeMap(confirming(kConfirmWithin));
   const Vector3d behind_wall(0.1, 3.5, 1.5);
   insert(room(), map);
   insert({behind_wall}, map);
@@ -102,14 +102,14 @@ TEST(LonePoint, IsNotAloneBesideWhatTheMapKnowsWell) {
 }
 
 TEST(LonePoint, OfASurfaceThereIsNone) {
-  OccupiedVoxelMap map = makeMap(confirming(kConfirmWithin));
+  MapBuilder map = makeMap(confirming(kConfirmWithin));
   for (int i = 0; i < 5; ++i) insert(room(), map);
   EXPECT_EQ(0U, map.loneCentroids());
 }
 
 size_t bytesOfRoom(int scans, int noise_points) {
   Random random(3);
-  OccupiedVoxelMap map = makeMap({});
+  MapBuilder map = makeMap({});
   for (int scan = 0; scan < scans; ++scan) {
     Centroids points = room();
     for (int i = 0; i < noise_points; ++i) points.push_back(random.vectorIn(-60, 60));
@@ -131,7 +131,7 @@ TEST(Noise, TakesNoMoreMemoryThanTheRoomItself) {
 TEST(Memory, NoNewVoxelsEnterAMapThatIsAsLargeAsItMayBe) {
   MapConfig config;
   config.memory = 1;
-  OccupiedVoxelMap map = makeMap(config);
+  MapBuilder map = makeMap(config);
   Centroids place = room();
   const auto next = [&] {
     for (Vector3d& point : place) point.x() += 9.0;
@@ -143,18 +143,18 @@ TEST(Memory, NoNewVoxelsEnterAMapThatIsAsLargeAsItMayBe) {
   EXPECT_EQ(0U, map.centroidsPastMemory());
   EXPECT_FALSE(map.isFull());
   const size_t bytes = map.bytes();
-  const size_t cells = map.gaussians(1).size();
+  const size_t cells = map.moments(1).size();
   insert(place, map);
   EXPECT_EQ(place.size(), map.centroidsPastMemory());
-  EXPECT_EQ(cells, map.gaussians(1).size());
+  EXPECT_EQ(cells, map.moments(1).size());
   EXPECT_TRUE(map.isFull());
   EXPECT_NE(std::string::npos, fullText(config).find("map/memory, 1 MB"));
   EXPECT_LE(map.bytes(), bytes + bytes / 10);
   const Vector3d known = room().front();
-  const uint32_t slot = map.gaussians(1).slotOf(voxelAt(known, 1.0 / map.voxelSize(1)));
-  const uint32_t count = map.gaussians(1).cell(slot).count;
+  const uint32_t slot = map.matchMap().surfaces(1).slotOf(voxelAt(known, 1.0 / map.voxelSize(1)));
+  const uint32_t count = map.moments(1).cell(slot).count;
   insert({known}, map);
-  EXPECT_EQ(count + 1, map.gaussians(1).cell(slot).count);  // but known ones are kept up to date
+  EXPECT_EQ(count + 1, map.moments(1).cell(slot).count);  // but known ones are kept up to date
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scan_sample.hpp"
+#include "edgevox/map_builder.hpp"
 #include "edgevox/matcher.hpp"
 #include "edgevox/motion.hpp"
 #include "support/random.hpp"
@@ -23,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kLevels = OccupiedVoxelMap::kGaussianLevels;
+constexpr int kLevels = MapBuilder::kSurfaceLevels;
 
 Pose poseOf(const Vector3d& position, double yaw) {
   Pose pose(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
@@ -56,13 +57,14 @@ struct MappedRoom {
 
   Config config;
   sim::World world = furnishedRoom();
-  OccupiedVoxelMap map;
+  MapBuilder builder;
+  const MatchMap& map = builder.matchMap();
   Pose truth = poseOf({0.55, -0.4, 0.1}, 0.7);
   ScanSample sample;
 
   MappedRoom()
       : config(configOf()),
-        map(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges, 1) {
+        builder(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges, 1) {
     Random random(3);
     for (uint32_t i = 0; i < 20; ++i) {
       const Vector3d position{random.uniform(-2, 2), random.uniform(-1.5, 1.5),
@@ -72,10 +74,10 @@ struct MappedRoom {
       for (const ScanVoxel& voxel : scanFrom(pose, i).voxels) {
         centroids.push_back(pose * voxel.centroid.cast<double>());
       }
-      map.insert(centroids, pose.translation());
+      builder.insert(centroids, pose.translation());
     }
-    map.label();
-    map.prepareAll();
+    builder.label();
+    builder.prepareAll();
     sample = sampleOf(scanFrom(truth, 100), 3000);
   }
 
@@ -178,7 +180,7 @@ TEST(PublishedMode, ComesWithinAVoxel) {
 }
 
 /// Counted point by point in a set.
-double naiveHitRatio(const OccupiedVoxelMap& map, const ScanSample& sample, const Pose& pose) {
+double naiveHitRatio(const MatchMap& map, const ScanSample& sample, const Pose& pose) {
   std::array<int, 4> hits{};
   for (const int level : {1, 3}) {
     std::set<VoxelIndex> occupied;
@@ -347,17 +349,18 @@ TEST(Match, BesideTheGridIsNone) {
 TEST(Refinement, EndsWhereItLeavesTheGrid) {
   const MappedRoom& room = mappedRoom();
   const double limit = kIndexLimit * room.config.voxel_size;
-  OccupiedVoxelMap map(room.config.voxel_size, 3.2, room.config.map, room.config.edges, 1);
+  MapBuilder builder(room.config.voxel_size, 3.2, room.config.map, room.config.edges, 1);
   std::vector<Vector3d> wall;  // at the limit
   for (int i = 0; i < 400; ++i) wall.emplace_back(limit - 0.25, 0.05 * (i / 20), 0.05 * (i % 20));
-  for (int i = 0; i < 3; ++i) map.insert(wall, {0, 0, 0});
-  map.label();
-  map.prepareAll();
+  for (int i = 0; i < 3; ++i) builder.insert(wall, {0, 0, 0});
+  builder.label();
+  builder.prepareAll();
   ScanSample sample = wall;
   for (Vector3d& point : sample) point.x() -= limit - 5;
   Pose guess = Pose::Identity();
   guess.translation().x() = limit - 5.0 + 0.2;
-  const MatchResult result = room.matcher().refine(map, sample, guess, kLevels, true);
+  const MatchResult result =
+      room.matcher().refine(builder.matchMap(), sample, guess, kLevels, true);
   EXPECT_GT(result.matches, 100);
   EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
 }

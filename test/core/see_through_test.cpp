@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "support/random.hpp"
 #include "support/reference_extractor.hpp"
 #include "support/scans.hpp"
@@ -47,7 +47,7 @@ double rangeOfHall(const Vector3d& from, const Vector3d& ray) {
 /// Lidar scans of the hall, from the left and from the right of the box in turn.
 class Scanner {
  public:
-  void scan(Box box, OccupiedVoxelMap& map) {
+  void scan(Box box, MapBuilder& map) {
     left_ = !left_;
     const double z = 0.9 + 0.1 * random_.normal();
     const double y = (left_ ? 1.3 : -1.3) + 0.1 * random_.normal();
@@ -65,7 +65,7 @@ class Scanner {
     map.insert(hits, sensor);
   }
 
-  void scan(int count, Box box, OccupiedVoxelMap& map) {
+  void scan(int count, Box box, MapBuilder& map) {
     for (int i = 0; i < count; ++i) scan(box, map);
   }
 
@@ -74,10 +74,10 @@ class Scanner {
   bool left_ = false;
 };
 
-OccupiedVoxelMap mapThatClearsAfter(int scans) {
+MapBuilder mapThatClearsAfter(int scans) {
   MapConfig config;
   config.clear_after = scans;
-  return OccupiedVoxelMap(kSize, 3.2, config, EdgeConfig{}, 1);
+  return MapBuilder(kSize, 3.2, config, EdgeConfig{}, 1);
 }
 
 /// Voxels inside the box, clear of the floor that stays.
@@ -93,13 +93,13 @@ size_t voxelsInBox(const Voxels& voxels) {
   return count;
 }
 
-size_t voxelsInBox(const OccupiedVoxelMap& map) { return voxelsInBox(voxelsOf(map.hitVoxels())); }
+size_t voxelsInBox(const MapBuilder& map) { return voxelsInBox(voxelsOf(map.hitVoxels())); }
 
 class SeeThrough : public testing::Test {
  protected:
   void scan(int count, Box box) { scanner_.scan(count, box, map_); }
 
-  OccupiedVoxelMap map_ = mapThatClearsAfter(kClearAfter);
+  MapBuilder map_ = mapThatClearsAfter(kClearAfter);
   Scanner scanner_;
 };
 
@@ -122,9 +122,9 @@ TEST_F(SeeThrough, NothingLeavesByDefault) {
 }
 
 TEST_F(SeeThrough, WhatStandsStillStays) {
-  OccupiedVoxelMap map = mapThatClearsAfter(kClearAfter);
-  OccupiedVoxelMap untouched = mapThatClearsAfter(0);
-  for (OccupiedVoxelMap* each : {&map, &untouched}) Scanner().scan(40, Box::kThere, *each);
+  MapBuilder map = mapThatClearsAfter(kClearAfter);
+  MapBuilder untouched = mapThatClearsAfter(0);
+  for (MapBuilder* each : {&map, &untouched}) Scanner().scan(40, Box::kThere, *each);
   const auto voxels = static_cast<double>(untouched.hitVoxels().voxelCount());
   EXPECT_LT(static_cast<double>(map.clearedVoxels()), 1e-3 * voxels);
 }
@@ -148,18 +148,19 @@ TEST_F(SeeThrough, AllLevelsAgree) {
   for (int l = 1; l < map_.levels(); ++l) {
     Voxels expected;
     if (l == 1) {
-      const GaussianLevel& g = map_.gaussians(1);
-      for (uint32_t slot = 0; slot < g.size(); ++slot) {
-        if (g.cell(slot).hits > 0) expected.push_back(g.voxel(slot));
+      const MomentLevel& moments = map_.moments(1);
+      for (uint32_t slot = 0; slot < moments.size(); ++slot) {
+        if (moments.cell(slot).hits > 0) expected.push_back(moments.voxel(slot));
       }
     } else {
-      expected = voxelsOf(map_.occupied(l - 1));
+      expected = voxelsOf(map_.matchMap().occupied(l - 1));
       for (VoxelIndex& v : expected) v = coarser(v, 1);
     }
-    EXPECT_TRUE(sameVoxels(sorted(expected), voxelsOf(map_.occupied(l)))) << "level " << l;
+    EXPECT_TRUE(sameVoxels(sorted(expected), voxelsOf(map_.matchMap().occupied(l))))
+        << "level " << l;
   }
   map_.hitVoxels().forEach(
-      [&](const VoxelIndex& v) { EXPECT_TRUE(map_.occupied(1).test(coarser(v, 1))); });
+      [&](const VoxelIndex& v) { EXPECT_TRUE(map_.matchMap().occupied(1).test(coarser(v, 1))); });
 }
 
 TEST_F(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
@@ -168,12 +169,12 @@ TEST_F(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
   map_.label();
   ASSERT_LT(100U, map_.clearedVoxels());
   EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map_.hitVoxels())), voxelsOf(map_.edgeVoxels())));
-  for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
-    const GaussianLevel& g = map_.gaussians(l);
+  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+    const SurfaceLevel& surfaces = map_.matchMap().surfaces(l);
     Voxels children = voxelsOf(map_.edgeVoxels());
     for (VoxelIndex& v : children) v = coarser(v, l);
     for (const VoxelIndex& v : sorted(children)) {
-      EXPECT_LT(0, g.cell(g.slotOf(v)).edge_children);
+      EXPECT_LT(0, map_.moments(l).cell(surfaces.slotOf(v)).edge_children);
     }
   }
 }
@@ -195,8 +196,8 @@ TEST_F(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
   map_.label();
   map_.prepareAll();
   const Eigen::Vector3f front = Vector3d(kBoxMin.x(), 0, -0.1).cast<float>();
-  for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
-    const GaussianLevel& level = map_.gaussians(l);
+  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+    const SurfaceLevel& level = map_.matchMap().surfaces(l);
     EXPECT_EQ(0U, level.around(level.voxelOf(front), true).count) << "level " << l;
   }
 }

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "support/random.hpp"
 #include "support/scans.hpp"
 
@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-OccupiedVoxelMap mapOfAllVoxels() {
+MapBuilder mapOfAllVoxels() {
   MapConfig config;
   config.representation = Representation::kAll;
-  return OccupiedVoxelMap(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
+  return MapBuilder(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
 }
 
 /// A ceiling between two storeys, seen from above first.
@@ -42,23 +42,25 @@ struct Ceiling {
 
   const Vector3d kAbove{0, 0, 3.5};
   const Vector3d kBelow{0, 0, -2.5};
-  OccupiedVoxelMap map;
+  MapBuilder map;
 };
 
 TEST(Sides, OfAThinSlabAreTwoSurfaces) {
   const Ceiling ceiling(8);
-  for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
-    const GaussianLevel& level = ceiling.map.gaussians(l);
-    const size_t voxels = ceiling.map.occupied(l).voxelCount();
-    EXPECT_EQ(voxels, level.selectedCount());
-    EXPECT_EQ(2 * voxels, level.selectedGaussians());
-    for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (level.cell(slot).is_twin) continue;
-      const VoxelGaussian& top = level.gaussian(slot);
-      ASSERT_NE(VoxelGaussian::kNoTwin, top.twin);
+  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+    const SurfaceLevel& surfaces = ceiling.map.matchMap().surfaces(l);
+    const MomentLevel& moments = ceiling.map.moments(l);
+    const size_t voxels = ceiling.map.matchMap().occupied(l).voxelCount();
+    EXPECT_EQ(voxels, surfaces.selectedCount());
+    EXPECT_EQ(2 * voxels, moments.selectedSurfaces());
+    for (uint32_t slot = 0; slot < moments.size(); ++slot) {
+      if (moments.cell(slot).is_back) continue;
+      ASSERT_TRUE(surfaces.hasBack(slot));
+      const Surface& top = surfaces.surface(slot);
+      const Surface& bottom = surfaces.surface(top.back_surface);
       EXPECT_NEAR(Ceiling::kTop, static_cast<double>(top.mean.z()), 0.005);
-      EXPECT_NEAR(Ceiling::kBottom, static_cast<double>(level.gaussian(top.twin).mean.z()), 0.005);
-      EXPECT_EQ(8, level.cell(slot).hits);  // of the voxel, whichever side
+      EXPECT_NEAR(Ceiling::kBottom, static_cast<double>(bottom.mean.z()), 0.005);
+      EXPECT_EQ(8, moments.cell(slot).hits);  // of the voxel, whichever side
     }
   }
 }
@@ -72,12 +74,12 @@ TEST(Sides, PointsMatchTheirOwn) {
     for (const bool above : {true, false}) {
       const Vector3d& sensor = above ? ceiling.kAbove : ceiling.kBelow;
       const Vector3d to_sensor = (sensor - point).normalized();
-      for (int l = 1; l <= OccupiedVoxelMap::kGaussianLevels; ++l) {
+      for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
         float distance = 0.0F;
-        const GaussianLevel& level = ceiling.map.gaussians(l);
+        const SurfaceLevel& level = ceiling.map.matchMap().surfaces(l);
         const Eigen::Vector3f at = point.cast<float>();
-        const VoxelGaussian* nearest = level.nearest(level.around(level.voxelOf(at), false), at,
-                                                     to_sensor.cast<float>(), distance);
+        const Surface* nearest = level.nearest(level.around(level.voxelOf(at), false), at,
+                                               to_sensor.cast<float>(), distance);
         ASSERT_NE(nullptr, nearest);
         ASSERT_NEAR(above ? Ceiling::kTop : Ceiling::kBottom,
                     static_cast<double>(nearest->mean.z()), 0.005);
@@ -88,7 +90,7 @@ TEST(Sides, PointsMatchTheirOwn) {
 
 TEST(Sides, ASurfaceSeenFromOneSideIsNotMatchedFromBehind) {
   Random random(29);
-  OccupiedVoxelMap map = mapOfAllVoxels();
+  MapBuilder map = mapOfAllVoxels();
   const Vector3d above(0.1, 0.2, 2.5);
   for (int scan = 0; scan < 3; ++scan) {
     Centroids floor;
@@ -101,11 +103,11 @@ TEST(Sides, ASurfaceSeenFromOneSideIsNotMatchedFromBehind) {
   float distance = 0.0F;
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   const Eigen::Vector3f point(0.5F, 0.5F, 0.5F);
-  const GaussianLevel& level = map.gaussians(1);
+  const SurfaceLevel& level = map.matchMap().surfaces(1);
   const auto around = level.around(level.voxelOf(point), false);
   EXPECT_NE(nullptr, level.nearest(around, point, up, distance));
   EXPECT_EQ(nullptr, level.nearest(around, point, -up, distance));
-  EXPECT_EQ(map.occupied(1).voxelCount(), map.gaussians(1).size());  // no twins
+  EXPECT_EQ(map.matchMap().occupied(1).voxelCount(), level.slotCount());  // no back surfaces
 }
 
 }  // namespace

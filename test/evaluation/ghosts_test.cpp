@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "sim/parts.hpp"
 
 namespace edgevox {
@@ -38,17 +38,16 @@ SimulatedTruth floorWithBlocks() {
 }
 
 /// Twice each of these centroids in its frame, as a map that counts what is hit twice.
-OccupiedVoxelMap mapOf(const std::vector<Vector3d>& centroids) {
+MapBuilder mapOf(const std::vector<Vector3d>& centroids) {
   MapConfig config;
   config.confirm_within = 0;
-  OccupiedVoxelMap map(kSize, 0.8, config, {}, 1);
+  MapBuilder map(kSize, 0.8, config, {}, 1);
   map.add(centroids, Vector3d(0, 0, 5));
   map.add(centroids, Vector3d(0, 0, 5));
   return map;
 }
 
-size_t ghostsOf(const OccupiedVoxelMap& map, const SimulatedTruth& truth,
-                const Pose& T_world_grid) {
+size_t ghostsOf(const MapBuilder& map, const SimulatedTruth& truth, const Pose& T_world_grid) {
   return GhostJudge(truth, 0.0, kEnd).count(centroidsOf(map, map.hitVoxels()), kSize, T_world_grid);
 }
 
@@ -85,7 +84,7 @@ TEST(GhostJudge, CountsThoseOfAMap) {
                                      {3.05, 0.22, 0.55},                       // ghost
                                      {5.05, 0.22, 0.55}, {7.22, 0.05, 0.55},   // still there
                                      {1.05, 0.05, 0.02}, {9.05, 0.05, 0.02}};  // floor
-  OccupiedVoxelMap map = mapOf(centroids);
+  MapBuilder map = mapOf(centroids);
   EXPECT_EQ(ghostsOf(map, truth, Pose::Identity()), 3U);
   map.add({{1.22, -0.05, 0.55}}, Vector3d(0, 0, 5));  // hit once
   EXPECT_EQ(ghostsOf(map, truth, Pose::Identity()), 3U);

@@ -12,7 +12,7 @@ using Cloud = sensor_msgs::PointCloud2;
 using visualization_msgs::Marker;
 
 /// The core's map after the scans.
-OccupiedVoxelMap mapOf(const Scans& scans) {
+MapBuilder mapOf(const Scans& scans) {
   Mapper mapper{Config{}};
   for (const VoxelScanStamped& scan : scans) mapper.process(fromMessage(scan));
   return mapper.map();
@@ -30,7 +30,7 @@ void expectCloud(const std::vector<Eigen::Vector3f>& points, const ros::Time& st
   EXPECT_TRUE(points == pointsOf(cloud));
 }
 
-void expectBoxes(const OccupiedVoxelMap& map, const Marker& boxes) {
+void expectBoxes(const MapBuilder& map, const Marker& boxes) {
   EXPECT_EQ(Marker::CUBE_LIST, boxes.type);
   EXPECT_EQ(Marker::ADD, boxes.action);
   for (const double side : {boxes.scale.x, boxes.scale.y, boxes.scale.z}) {
@@ -63,7 +63,7 @@ class MapTest : public MapperTest {
 
   /// A new listener to each topic must get the map after these scans.
   void expectMap(const Scans& scans) {
-    const OccupiedVoxelMap map = mapOf(scans);
+    const MapBuilder map = mapOf(scans);
     const ros::Time stamp = scans.back().header.stamp;
     const Listener<Cloud> edges(resolved("map_edges"));
     const Listener<Cloud> occupied(resolved("map_occupied"));
@@ -104,7 +104,7 @@ TEST_F(MapTest, FollowsForThoseWhoStay) {
   start();
   const Listener<Cloud> edges(resolved("map_edges"));
   map(firstScans(kMiddle));
-  const auto is = [&](const OccupiedVoxelMap& wanted) {
+  const auto is = [&](const MapBuilder& wanted) {
     const auto points = centroidsOf(wanted, wanted.edgeVoxels());
     return eventually(
         [&] { return edges.count() > 0 && pointsOf(*edges.messages().back()) == points; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,9 @@ namespace edgevox {
 namespace {
 
 constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
-constexpr size_t kGaussianBytes = 48;
+constexpr size_t kSurfaceBytes = 48;
 constexpr size_t kMegabyte = 1000000;
 constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
-
-int levelCount(double voxel_size, double coarsest_voxel) {
-  const int coarsest = static_cast<int>(std::lround(std::log2(coarsest_voxel / voxel_size)));
-  return std::max(coarsest, OccupiedVoxelMap::kGaussianLevels) + 1;
-}
 
 template <typename T>
 void sortUnique(std::vector<T>& values) {
@@ -52,25 +47,25 @@ size_t blocksWithBits(const BitGrid<8>& grid) {
 
 }  // namespace
 
-OccupiedVoxelMap::OccupiedVoxelMap(double voxel_size, double coarsest_voxel, const MapConfig& map,
-                                   const EdgeConfig& edges, int threads)
+MapBuilder::MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
+                       const EdgeConfig& edges, int threads)
     : voxel_size_(voxel_size),
+      coarsest_voxel_(coarsest_voxel),
       config_(map),
       labeller_(mapLabeller(edges, edges.map_support, threads)),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       lone_voxels_(map.confirm_within),
-      occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
-  for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
+      match_map_(voxel_size, coarsest_voxel) {
+  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
-void OccupiedVoxelMap::insert(const std::vector<Eigen::Vector3d>& centroids,
-                              const Eigen::Vector3d& sensor) {
+void MapBuilder::insert(const std::vector<Eigen::Vector3d>& centroids,
+                        const Eigen::Vector3d& sensor) {
   add(centroids, sensor);
   if (labelDue()) label();
 }
 
-void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
-                           const Eigen::Vector3d& sensor) {
+void MapBuilder::add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor) {
   ++scans_;
   setPoints(centroids);
   leaveOutLone();
@@ -79,7 +74,7 @@ void OccupiedVoxelMap::add(const std::vector<Eigen::Vector3d>& centroids,
   addPoints(sensor);
 }
 
-void OccupiedVoxelMap::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
+void MapBuilder::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
   centroids_.clear();
   std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(centroids_),
                [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); });
@@ -91,7 +86,7 @@ void OccupiedVoxelMap::setPoints(const std::vector<Eigen::Vector3d>& centroids) 
 }
 
 /// One pass a level and a step: short loops over memory that do not wait for one another.
-void OccupiedVoxelMap::addPoints(const Eigen::Vector3d& sensor) {
+void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
   to_sensor_.resize(centroids_.size());
   slots_.resize(centroids_.size());
   std::transform(centroids_.begin(), centroids_.end(), to_sensor_.begin(),
@@ -99,17 +94,17 @@ void OccupiedVoxelMap::addPoints(const Eigen::Vector3d& sensor) {
                    return (sensor - c).cast<float>().normalized();
                  });
   addHits();
-  for (int l = 1; l <= kGaussianLevels; ++l) addMoments(l);
+  for (int l = 1; l <= kSurfaceLevels; ++l) addMoments(l);
   if (config_.clear_after > 0) clearSeenThrough(sensor);
-  for (GaussianLevel& g : gaussians_) g.updateSelected();
+  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateSelected(match_map_.surfaces(l));
 }
 
-bool OccupiedVoxelMap::labelDue() const {
+bool MapBuilder::labelDue() const {
   return config_.representation != Representation::kAll &&
          scans_ % static_cast<uint32_t>(config_.label_every) == 0;
 }
 
-void OccupiedVoxelMap::addHits() {
+void MapBuilder::addHits() {
   for (size_t i = 0; i < voxels_.size(); ++i) {
     const uint32_t next =
         free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
@@ -132,134 +127,136 @@ void OccupiedVoxelMap::addHits() {
   }
 }
 
-void OccupiedVoxelMap::addMoments(int l) {
-  GaussianLevel& g = level(l);
+void MapBuilder::addMoments(int l) {
+  MomentLevel& level = momentLevel(l);
+  SurfaceLevel& surfaces = match_map_.surfaces(l);
   for (size_t i = 0; i < voxels_.size(); ++i) {
     const VoxelIndex v = coarser(voxels_[i], l);
-    slots_[i] = g.slotFor(v);
-    if (l == 1 && g.cell(slots_[i]).hits == 0) markOccupied(v);
+    slots_[i] = level.slotFor(v, surfaces);
+    if (l == 1 && level.cell(slots_[i]).hits == 0) markOccupied(v);
   }
   for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (!g.add(slots_[i], centroids_[i], to_sensor_[i], scans_)) continue;
+    if (!level.add(slots_[i], centroids_[i], to_sensor_[i], scans_, surfaces)) continue;
     touch(l, slots_[i]);
-    if (g.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
+    if (level.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
   }
 }
 
-void OccupiedVoxelMap::selectNew(int l, uint32_t slot) {
-  GaussianLevel& g = level(l);
-  if (config_.representation == Representation::kAll) g.select(slot, true);
+void MapBuilder::selectNew(int l, uint32_t slot) {
+  MomentLevel& level = momentLevel(l);
+  if (config_.representation == Representation::kAll) select(l, slot, true);
   if (config_.representation == Representation::kEdges) {
-    g.cell(slot).anchor = lotOf(g.voxel(slot)) < kNewShare;
-    g.select(slot, g.cell(slot).anchor);
+    level.cell(slot).anchor = lotOf(level.voxel(slot)) < kNewShare;
+    select(l, slot, level.cell(slot).anchor);
   }
   if (config_.representation == Representation::kRandom) {
-    g.select(slot, lotOf(g.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
+    select(l, slot, lotOf(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
   }
 }
 
-void OccupiedVoxelMap::markOccupied(const VoxelIndex& v) {
+void MapBuilder::markOccupied(const VoxelIndex& v) {
   for (int l = 1; l < levels(); ++l) {
-    if (!occupied_[static_cast<size_t>(l)].set(coarser(v, l - 1))) return;
+    if (!match_map_.occupied(l).set(coarser(v, l - 1))) return;
   }
 }
 
-void OccupiedVoxelMap::countEdge(int l, const VoxelIndex& v, int change) {
-  GaussianLevel& g = level(l);
-  const uint32_t slot = g.slotOf(v);
-  auto& children = g.cell(slot).edge_children;
+void MapBuilder::countEdge(int l, const VoxelIndex& v, int change) {
+  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
+  auto& children = momentLevel(l).cell(slot).edge_children;
   const bool held = children != 0;
   children = static_cast<uint8_t>(children + change);
   if (held == (children != 0)) return;
   touch(l, slot);
-  if (l < kGaussianLevels) countEdge(l + 1, coarser(v, 1), change);
+  if (l < kSurfaceLevels) countEdge(l + 1, coarser(v, 1), change);
 }
 
-void OccupiedVoxelMap::touch(int l, uint32_t slot) {
+void MapBuilder::touch(int l, uint32_t slot) {
   if (config_.representation == Representation::kAll) return;
   touched_[static_cast<size_t>(l - 1)].push_back(slot);
 }
 
-void OccupiedVoxelMap::chooseAnchorsAnew() {
-  for (int l = 1; l <= kGaussianLevels; ++l) {
-    GaussianLevel& g = level(l);
+void MapBuilder::chooseAnchorsAnew() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    MomentLevel& level = momentLevel(l);
+    const SurfaceLevel& surfaces = match_map_.surfaces(l);
     auto& slots = touched_[static_cast<size_t>(l - 1)];
     sortUnique(slots);
     std::vector<size_t> blocks(slots.size());
     for (size_t i = 0; i < slots.size(); ++i) {
-      if (g.cell(slots[i]).hits >= config_.min_hits) g.findFlatAxis(slots[i]);
-      blocks[i] = g.blockOf(slots[i]);
+      if (level.cell(slots[i]).hits >= config_.min_hits) level.findFlatAxis(slots[i]);
+      blocks[i] = surfaces.blockOf(level.voxel(slots[i]));
     }
     slots.clear();
     sortUnique(blocks);
     const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
     for (const size_t block : blocks) {
-      chooseAnchors(g, block, {count, config_.min_hits});
+      chooseAnchors(level, surfaces, block, {count, config_.min_hits});
       if (config_.representation != Representation::kEdges) continue;
-      g.forEachInBlock(block, [&](uint32_t slot) { g.select(slot, g.cell(slot).anchor); });
+      surfaces.forEachInBlock(block,
+                              [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });
     }
   }
 }
 
-void OccupiedVoxelMap::label() {
+void MapBuilder::label() {
   BitGrid<16> relabelled;
   Dilation<16>(labeller_.reach(), hit_voxels_, relabelled).add(changed_);
   changed_.clear();
   labeller_.label(hit_voxels_, relabelled, edge_candidates_);
   BitGrid<16> targets;
   Dilation<16>(1, hit_voxels_, targets).add(relabelled);
+  BitGrid<16>& edges = match_map_.edgeVoxels();
   std::vector<BitGrid<16>::Block> before(targets.blockCount());
   for (size_t slot = 0; slot < before.size(); ++slot) {
-    const size_t edge_slot = edge_voxels_.insertBlock(targets.blockIndex(slot));
-    before[slot] = edge_voxels_.block(edge_slot);
+    const size_t edge_slot = edges.insertBlock(targets.blockIndex(slot));
+    before[slot] = edges.block(edge_slot);
   }
-  thinEdges(edge_candidates_, targets, edge_neighbours_, edge_voxels_);
+  thinEdges(edge_candidates_, targets, edge_neighbours_, edges);
   changeEdges(targets, before);
   chooseAnchorsAnew();
   if (config_.representation == Representation::kRandom) selectRandom();
 }
 
-void OccupiedVoxelMap::changeEdges(const BitGrid<16>& targets,
-                                   const std::vector<BitGrid<16>::Block>& before) {
+void MapBuilder::changeEdges(const BitGrid<16>& targets,
+                             const std::vector<BitGrid<16>::Block>& before) {
   for (size_t slot = 0; slot < before.size(); ++slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
-    const auto& now = *edge_voxels_.findBlock(block);
+    const auto& now = *edgeVoxels().findBlock(block);
     BitGrid<16>::Block differs;
     for (size_t row = 0; row < now.size(); ++row) {
       differs[row] = static_cast<uint16_t>(now[row] ^ before[slot][row]);
     }
     BitGrid<16>::forEachInBlock(block, differs, [&](const VoxelIndex& v) {
-      countEdge(1, coarser(v, 1), edge_voxels_.test(v) ? 1 : -1);
+      countEdge(1, coarser(v, 1), edgeVoxels().test(v) ? 1 : -1);
     });
   }
 }
 
-void OccupiedVoxelMap::selectRandom() {
-  for (int l = 1; l <= kGaussianLevels; ++l) {
-    GaussianLevel& g = level(l);
+void MapBuilder::selectRandom() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    const MomentLevel& level = moments(l);
     size_t anchors = 0;
     size_t candidates = 0;
-    for (uint32_t slot = 0; slot < g.size(); ++slot) {
-      if (g.cell(slot).is_twin) continue;
-      anchors += g.cell(slot).anchor ? 1 : 0;
-      candidates += g.cell(slot).hits >= config_.min_hits ? 1 : 0;
+    for (uint32_t slot = 0; slot < level.size(); ++slot) {
+      if (level.cell(slot).is_back) continue;
+      anchors += level.cell(slot).anchor ? 1 : 0;
+      candidates += level.cell(slot).hits >= config_.min_hits ? 1 : 0;
     }
     double& share = random_share_[static_cast<size_t>(l - 1)];
     share = static_cast<double>(anchors) / static_cast<double>(candidates);
-    for (uint32_t slot = 0; slot < g.size(); ++slot) {
-      const GaussianLevel::Cell& cell = g.cell(slot);
-      if (cell.is_twin) continue;
-      g.select(slot, cell.hits >= config_.min_hits && lotOf(g.voxel(slot)) < share);
+    for (uint32_t slot = 0; slot < level.size(); ++slot) {
+      const MomentLevel::Cell& cell = level.cell(slot);
+      if (cell.is_back) continue;
+      select(l, slot, cell.hits >= config_.min_hits && lotOf(level.voxel(slot)) < share);
     }
   }
 }
 
-void OccupiedVoxelMap::prepareAll() {
-  for (GaussianLevel& g : gaussians_) g.updateAll();
+void MapBuilder::prepareAll() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateAll(match_map_.surfaces(l));
 }
 
-void OccupiedVoxelMap::clear() {
-  const size_t level_count = occupied_.size();
+void MapBuilder::clear() {
   scans_ = 0;
   ignored_ = 0;
   cleared_count_ = 0;
@@ -273,41 +270,42 @@ void OccupiedVoxelMap::clear() {
   free_hits_ = {};
   hit_voxels_ = {};
   edge_candidates_ = {};
-  edge_voxels_ = {};
   changed_ = {};
   touched_ = {};
   random_share_ = {};
-  gaussians_.clear();
-  for (int l = 1; l <= kGaussianLevels; ++l) gaussians_.emplace_back(voxelSize(l));
-  occupied_ = std::vector<BitGrid<8>>(level_count);
+  match_map_ = MatchMap(voxel_size_, coarsest_voxel_);
+  moments_.clear();
+  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
-Eigen::Vector3d OccupiedVoxelMap::centroid(const VoxelIndex& v) const {
+Eigen::Vector3d MapBuilder::centroid(const VoxelIndex& v) const {
   return centroidOf(hit_grid_.find(v), v);
 }
 
-Eigen::Vector3d OccupiedVoxelMap::centroidOf(uint32_t slot, const VoxelIndex& v) const {
+Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const {
   const Hit& hit = hits_[slot];
   const Eigen::Vector3d sum(hit.sum[0], hit.sum[1], hit.sum[2]);
   return voxelCentre(v, voxel_size_) + sum / static_cast<double>(hit.count);
 }
 
-size_t OccupiedVoxelMap::packedBytes() const {
+size_t MapBuilder::packedBytes() const {
   const bool all = config_.representation == Representation::kAll;
-  size_t bytes = blocksOfEight(all ? hit_voxels_ : edge_voxels_) * kBitBlockBytes;
-  for (const BitGrid<8>& bits : occupied_) bytes += blocksWithBits(bits) * kBitBlockBytes;
-  for (const GaussianLevel& g : gaussians_) {
-    bytes += g.blocksWithSelection() * kBitBlockBytes + g.selectedGaussians() * kGaussianBytes;
+  size_t bytes = blocksOfEight(all ? hit_voxels_ : edgeVoxels()) * kBitBlockBytes;
+  for (int l = 1; l < levels(); ++l) {
+    bytes += blocksWithBits(match_map_.occupied(l)) * kBitBlockBytes;
+  }
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    bytes += match_map_.surfaces(l).blocksWithSelection() * kBitBlockBytes +
+             moments(l).selectedSurfaces() * kSurfaceBytes;
   }
   return bytes;
 }
 
-size_t OccupiedVoxelMap::bytes() const {
+size_t MapBuilder::bytes() const {
   size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
-                 edge_candidates_.bytes() + edge_voxels_.bytes() + changed_.bytes() +
+                 edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
                  lone_voxels_.bytes() + neighbours_.bytes();
-  for (const GaussianLevel& g : gaussians_) bytes += g.bytes();
-  for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
+  for (const MomentLevel& level : moments_) bytes += level.bytes();
   return bytes;
 }
 
@@ -317,7 +315,7 @@ std::string fullText(const MapConfig& config) {
          "voxelizer/max_range, or, with memory to spare, a larger map/memory";
 }
 
-std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels) {
+std::vector<Eigen::Vector3f> centroidsOf(const MapBuilder& map, const BitGrid<16>& voxels) {
   std::vector<VoxelIndex> indices;
   voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
   std::sort(indices.begin(), indices.end());

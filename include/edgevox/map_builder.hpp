@@ -12,24 +12,23 @@
 #include "edgevox/block_grid.hpp"
 #include "edgevox/config.hpp"
 #include "edgevox/edge_extractor.hpp"
-#include "edgevox/gaussian_level.hpp"
 #include "edgevox/lone_voxels.hpp"
+#include "edgevox/match_map.hpp"
+#include "edgevox/moment_level.hpp"
 #include "edgevox/pool.hpp"
 #include "edgevox/voxel.hpp"
 
 namespace edgevox {
 
-/// A multi-resolution occupied voxel list (Ryde and Hu 2010). Level k has voxels of
-/// voxel_size * 2^k. Level 0 counts hits and holds the edge labels of the accumulated occupancy;
-/// levels 1 to kGaussianLevels hold Gaussians for the refinement; all from 1 on hold the bits of
-/// all occupied voxels for the search.
-class OccupiedVoxelMap {
+/// Keeps a MatchMap up to date with scans: counts the hits of voxels, sums up their centroids,
+/// labels edges on the accumulated occupancy, and selects the voxels that scans are matched to.
+class MapBuilder {
  public:
-  static constexpr int kGaussianLevels = 2;
+  static constexpr int kSurfaceLevels = MatchMap::kSurfaceLevels;
 
   /// `coarsest_voxel` [m] fixes the number of levels.
-  OccupiedVoxelMap(double voxel_size, double coarsest_voxel, const MapConfig& map,
-                   const EdgeConfig& edges, int threads);
+  MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
+             const EdgeConfig& edges, int threads);
 
   /// add(), then label() when it is due.
   void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
@@ -42,24 +41,21 @@ class OccupiedVoxelMap {
   /// Labels what has changed since the last labelling. The labels are those that labelling the
   /// whole map would give.
   void label();
-  /// Makes the Gaussians of all occupied voxels ready for matching, selected or not.
+  /// Makes the surfaces of all occupied voxels ready for matching, selected or not.
   void prepareAll();
   void clear();
 
-  int levels() const { return static_cast<int>(occupied_.size()); }
-  double voxelSize(int level) const { return voxel_size_ * static_cast<double>(1 << level); }
+  const MatchMap& matchMap() const { return match_map_; }
+  int levels() const { return match_map_.levels(); }
+  double voxelSize(int level) const { return match_map_.voxelSize(level); }
   bool empty() const { return scans_ == 0; }
   uint32_t scans() const { return scans_; }
 
-  /// 1 <= level < levels()
-  const BitGrid<8>& occupied(int level) const { return occupied_[static_cast<size_t>(level)]; }
-  /// 1 <= level <= kGaussianLevels
-  const GaussianLevel& gaussians(int level) const {
-    return gaussians_[static_cast<size_t>(level - 1)];
-  }
+  /// 1 <= level <= kSurfaceLevels
+  const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
   /// Voxels of level 0 with at least `min_hits`.
   const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
-  const BitGrid<16>& edgeVoxels() const { return edge_voxels_; }
+  const BitGrid<16>& edgeVoxels() const { return match_map_.edgeVoxels(); }
   /// Mean of the centroids that fell in a voxel of level 0; the voxel must have been hit.
   Eigen::Vector3d centroid(const VoxelIndex& v) const;
 
@@ -72,7 +68,7 @@ class OccupiedVoxelMap {
   bool isFull() const { return full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
-  /// What matching needs, packed: bits of all levels and 48 bytes a selected Gaussian.
+  /// What matching needs, packed: bits of all levels and 48 bytes a selected surface.
   size_t packedBytes() const;
   /// What is held while mapping.
   size_t bytes() const;
@@ -118,9 +114,13 @@ class OccupiedVoxelMap {
   void touch(int level, uint32_t slot);
   void chooseAnchorsAnew();
   void selectRandom();
-  GaussianLevel& level(int l) { return gaussians_[static_cast<size_t>(l - 1)]; }
+  MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
+  void select(int level, uint32_t slot, bool selected) {
+    momentLevel(level).select(slot, selected, match_map_.surfaces(level));
+  }
 
   double voxel_size_;
+  double coarsest_voxel_;
   MapConfig config_;
   EdgeLabeller<16> labeller_;
   int edge_neighbours_;  // see thinEdges()
@@ -137,24 +137,23 @@ class OccupiedVoxelMap {
   std::vector<uint32_t> free_hits_;  // slots of removed voxels
   BitGrid<16> hit_voxels_;
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
-  BitGrid<16> edge_voxels_;
-  BitGrid<16> changed_;  // of hit_voxels_, since the last labelling
-  std::vector<GaussianLevel> gaussians_;
-  std::array<std::vector<uint32_t>, kGaussianLevels> touched_;  // slots by level - 1, repeated
-  std::array<double, kGaussianLevels> random_share_{};          // of the voxels of a level
-  std::vector<BitGrid<8>> occupied_;                            // [0] is not used
-  std::vector<Eigen::Vector3d> centroids_;                      // of the scan being added
-  std::vector<VoxelIndex> voxels_;                              // of the same, at level 0
-  std::vector<Eigen::Vector3f> to_sensor_;                      // of the same, unit vectors
-  std::vector<uint32_t> slots_;                                 // of the same, at one level
-  std::vector<VoxelIndex> cleared_;                             // by the scan being added
+  BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
+  std::vector<MomentLevel> moments_;
+  MatchMap match_map_;
+  std::array<std::vector<uint32_t>, kSurfaceLevels> touched_;  // slots by level - 1, repeated
+  std::array<double, kSurfaceLevels> random_share_{};          // of the voxels of a level
+  std::vector<Eigen::Vector3d> centroids_;                     // of the scan being added
+  std::vector<VoxelIndex> voxels_;                             // of the same, at level 0
+  std::vector<Eigen::Vector3f> to_sensor_;                     // of the same, unit vectors
+  std::vector<uint32_t> slots_;                                // of the same, at one level
+  std::vector<VoxelIndex> cleared_;                            // by the scan being added
 };
 
 /// Says that a map is as large as it may be, and what to do.
 std::string fullText(const MapConfig& config);
 
 template <typename Test>
-void OccupiedVoxelMap::keepPoints(const Test& test) {
+void MapBuilder::keepPoints(const Test& test) {
   size_t kept = 0;
   for (size_t i = 0; i < voxels_.size(); ++i) {
     if (!test(voxels_[i])) continue;
@@ -166,6 +165,6 @@ void OccupiedVoxelMap::keepPoints(const Test& test) {
 }
 
 /// Centroids of the voxels of level 0, in the order of the voxels [m].
-std::vector<Eigen::Vector3f> centroidsOf(const OccupiedVoxelMap& map, const BitGrid<16>& voxels);
+std::vector<Eigen::Vector3f> centroidsOf(const MapBuilder& map, const BitGrid<16>& voxels);
 
 }  // namespace edgevox

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edgevox/gaussian_level.hpp"
+#include "edgevox/moment_level.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ Eigen::Matrix3d symmetric(const std::array<float, 6>& m) {
   return out;
 }
 
-Eigen::Matrix3d covarianceOf(const GaussianLevel::Cell& cell, double size) {
+Eigen::Matrix3d covarianceOf(const MomentLevel::Cell& cell, double size) {
   const double n = cell.count;
   const Eigen::Vector3d sum(cell.sum[0], cell.sum[1], cell.sum[2]);
   const Eigen::Matrix3d scatter = symmetric(cell.outer) - sum * sum.transpose() / n;
@@ -64,8 +64,8 @@ Eigen::Matrix3d covarianceOf(const GaussianLevel::Cell& cell, double size) {
          kSensorSigma * kSensorSigma * Eigen::Matrix3d::Identity();
 }
 
-/// The surface that a covariance shows.
-struct Surface {
+/// The shape of what a covariance shows.
+struct Shape {
   double greatest;         // eigenvalue
   Eigen::Matrix3d across;  // the information across the surface; zero if there is no surface
   Eigen::Index axis = 0;   // nearest to the normal
@@ -75,7 +75,7 @@ struct Surface {
                      // normal of a line is any
   bool flat;
 
-  explicit Surface(const Eigen::Matrix3d& covariance) {
+  explicit Shape(const Eigen::Matrix3d& covariance) {
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     const ExtremeEigenvalues e(covariance);
     const double middle = covariance.trace() - e.least - e.greatest;
@@ -98,36 +98,29 @@ struct Surface {
 /// Across the surface all of the information, along it only a share: the extent of what was seen
 /// of a voxel would else fake a position, most of all in a corridor, where many flat voxels that
 /// tell nothing outvote the few that do.
-Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, const Surface& surface) {
-  const double share = std::min(kAlong, surface.thickness * surface.thickness / kFlat);
-  const Eigen::Matrix3d all = covariance.inverse() - Eigen::Matrix3d::Identity() / surface.greatest;
-  return share * all + (1 - share) * surface.patch * surface.across;
+Eigen::Matrix3d informationOf(const Eigen::Matrix3d& covariance, const Shape& shape) {
+  const double share = std::min(kAlong, shape.thickness * shape.thickness / kFlat);
+  const Eigen::Matrix3d all = covariance.inverse() - Eigen::Matrix3d::Identity() / shape.greatest;
+  return share * all + (1 - share) * shape.patch * shape.across;
 }
 
-/// See VoxelGaussian::side: the normal turned to the viewer where the voxel is flat, the mean
+/// See Surface::side: the normal turned to the viewer where the voxel is flat, the mean
 /// viewing direction elsewhere.
-Eigen::Vector3f sideOf(const Surface& surface, const Eigen::Vector3d& view) {
-  if (!surface.flat) return (view.normalized() / kOpposite).cast<float>();
-  return (surface.normal * (surface.normal.dot(view) < 0 ? -1.0 : 1.0) / kBehind).cast<float>();
+Eigen::Vector3f sideOf(const Shape& shape, const Eigen::Vector3d& view) {
+  if (!shape.flat) return (view.normalized() / kOpposite).cast<float>();
+  return (shape.normal * (shape.normal.dot(view) < 0 ? -1.0 : 1.0) / kBehind).cast<float>();
 }
 
-VoxelGaussian gaussianOf(const GaussianLevel::Cell& cell, const VoxelIndex& v, double size) {
+Surface surfaceOf(const MomentLevel::Cell& cell, const VoxelIndex& v, double size) {
   const Eigen::Vector3d sum(cell.sum[0], cell.sum[1], cell.sum[2]);
   const Eigen::Matrix3d covariance = covarianceOf(cell, size);
-  const Surface surface(covariance);
-  const Eigen::Matrix3f w = informationOf(covariance, surface).cast<float>();
-  VoxelGaussian gaussian;
-  gaussian.mean = (voxelCentre(v, size) + sum / cell.count).cast<float>();
-  gaussian.information = {w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(1, 2), w(2, 0)};
-  gaussian.side = sideOf(surface, Eigen::Vector3d(cell.view[0], cell.view[1], cell.view[2]));
-  return gaussian;
-}
-
-float squaredDistance(const VoxelGaussian& g, const Eigen::Vector3f& point) {
-  const Eigen::Vector3f e = point - g.mean;
-  const auto& w = g.information;
-  return e.x() * (w[0] * e.x() + 2 * (w[3] * e.y() + w[5] * e.z())) +
-         e.y() * (w[1] * e.y() + 2 * w[4] * e.z()) + e.z() * w[2] * e.z();
+  const Shape shape(covariance);
+  const Eigen::Matrix3f w = informationOf(covariance, shape).cast<float>();
+  Surface surface;
+  surface.mean = (voxelCentre(v, size) + sum / cell.count).cast<float>();
+  surface.information = {w(0, 0), w(1, 1), w(2, 2), w(0, 1), w(1, 2), w(2, 0)};
+  surface.side = sideOf(shape, Eigen::Vector3d(cell.view[0], cell.view[1], cell.view[2]));
+  return surface;
 }
 
 }  // namespace
@@ -149,93 +142,36 @@ Moments Moments::about(const Eigen::Vector3d& origin) const {
           outer - cross - cross.transpose() + count * origin * origin.transpose()};
 }
 
-GaussianLevel::Around GaussianLevel::around(const VoxelIndex& voxel, bool all) const {
-  static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
-                                         {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  Around around;
-  around.voxel = voxel;
-  const VoxelIndex home = Layout::block(voxel);
-  const int32_t home_block = grid_.findBlock(home);
-  for (const auto& offset : kOffsets) {
-    const VoxelIndex v{voxel.x + offset[0], voxel.y + offset[1], voxel.z + offset[2]};
-    const VoxelIndex its_block = Layout::block(v);
-    const int32_t found = its_block == home ? home_block : grid_.findBlock(its_block);
-    if (found == BlockTable::kNone) continue;
-    const auto block = static_cast<size_t>(found);
-    const auto& bits = all ? grid_.block(block).occupied : selected_[block];
-    const int cell = Layout::cell(v);
-    if (bits.test(cell)) around.slots[around.count++] = grid_.block(block).slotOf(cell);
-  }
-  return around;
-}
-
-const VoxelGaussian* GaussianLevel::nearest(const Around& around, const Eigen::Vector3f& point,
-                                            const Eigen::Vector3f& to_sensor,
-                                            float& distance) const {
-  const VoxelGaussian* best = nullptr;
-  distance = std::numeric_limits<float>::infinity();
-  for (uint32_t i = 0; i < around.count; ++i) {
-    const VoxelGaussian* candidate = &gaussians_[around.slots[i]];
-    if (candidate->facesAway(to_sensor)) {
-      if (candidate->twin == VoxelGaussian::kNoTwin) continue;
-      candidate = &gaussians_[candidate->twin];
-    }
-    const float d = squaredDistance(*candidate, point);
-    if (d < distance) {
-      distance = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-uint32_t GaussianLevel::slotFor(const VoxelIndex& v) {
-  const uint32_t slot = grid_.insert(v, nextSlot());
-  if (slot == nextSlot()) {
-    newCell(v);
-    while (selected_.size() < grid_.blockCount()) selected_.emplace_back();
-  }
+uint32_t MomentLevel::slotFor(const VoxelIndex& v, SurfaceLevel& surfaces) {
+  const uint32_t slot = surfaces.insert(v);
+  if (slot >= size() || cells_[slot].count == 0) makeCell(slot, v);
   return slot;
 }
 
-uint32_t GaussianLevel::nextSlot() const {
-  return free_.empty() ? static_cast<uint32_t>(cells_.size()) : free_.back();
-}
-
-uint32_t GaussianLevel::newCell(const VoxelIndex& v) {
-  const uint32_t slot = nextSlot();
-  if (free_.empty()) {
+void MomentLevel::makeCell(uint32_t slot, const VoxelIndex& v) {
+  while (size() <= slot) {
     cells_.grow();
     voxels_.grow();
-    gaussians_.grow();
-  } else {
-    free_.pop_back();
   }
   voxels_[slot] = v;
-  return slot;
-}
-
-void GaussianLevel::freeCell(uint32_t slot) {
-  cells_[slot] = {};
-  gaussians_[slot] = {};
-  free_.push_back(slot);
 }
 
 /// The cell of the surface in the voxel that `to_sensor` sees.
-uint32_t GaussianLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor) {
-  if (!gaussians_[slot].facesAway(to_sensor)) return slot;
-  if (!hasTwin(slot)) {
-    const uint32_t twin = newCell(voxels_[slot]);
-    cells_[twin].is_twin = true;
-    cells_[twin].selected = cells_[slot].selected;
-    gaussians_[slot].twin = twin;
+uint32_t MomentLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor,
+                               SurfaceLevel& surfaces) {
+  if (!surfaces.surface(slot).facesAway(to_sensor)) return slot;
+  if (!surfaces.hasBack(slot)) {
+    const uint32_t back = surfaces.insertBack(slot);
+    makeCell(back, voxels_[slot]);
+    cells_[back].is_back = true;
+    cells_[back].selected = cells_[slot].selected;
   }
-  return gaussians_[slot].twin;
+  return surfaces.surface(slot).back_surface;
 }
 
-bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
-                        const Eigen::Vector3f& to_sensor, uint32_t scan) {
-  const uint32_t side = sideSlot(slot, to_sensor);
+bool MomentLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
+                      const Eigen::Vector3f& to_sensor, uint32_t scan, SurfaceLevel& surfaces) {
+  const uint32_t side = sideSlot(slot, to_sensor, surfaces);
   Cell& seen = cells_[side];
   const Eigen::Vector3f d = (centroid - voxelCentre(voxels_[slot], voxel_size_)).cast<float>();
   for (size_t i = 0; i < 3; ++i) {
@@ -255,13 +191,13 @@ bool GaussianLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
   return true;
 }
 
-void GaussianLevel::setStale(uint32_t slot) {
+void MomentLevel::setStale(uint32_t slot) {
   if (cells_[slot].stale) return;
   cells_[slot].stale = true;
   stale_.push_back(slot);
 }
 
-void GaussianLevel::setMoments(uint32_t slot, const Moments& moments) {
+void MomentLevel::setMoments(uint32_t slot, const Moments& moments) {
   Cell& cell = cells_[slot];
   const auto kept = static_cast<float>(moments.count / cell.count);
   for (size_t i = 0; i < 3; ++i) {
@@ -275,28 +211,27 @@ void GaussianLevel::setMoments(uint32_t slot, const Moments& moments) {
   setStale(slot);
 }
 
-void GaussianLevel::erase(const VoxelIndex& v) {
-  const uint32_t slot = slotOf(v);
-  select(slot, false);
-  if (hasTwin(slot)) freeCell(gaussians_[slot].twin);
-  freeCell(slot);
-  grid_.erase(v);
+void MomentLevel::erase(const VoxelIndex& v, SurfaceLevel& surfaces) {
+  const uint32_t slot = surfaces.slotOf(v);
+  if (surfaces.hasBack(slot)) cells_[surfaces.surface(slot).back_surface] = {};
+  cells_[slot] = {};
+  surfaces.erase(v);
 }
 
-void GaussianLevel::update(uint32_t slot, Side side) {
-  const VoxelGaussian before = gaussians_[slot];
-  VoxelGaussian& now = gaussians_[slot];
-  now = gaussianOf(cells_[slot], voxels_[slot], voxel_size_);
-  now.twin = before.twin;
+void MomentLevel::update(uint32_t slot, Side side, SurfaceLevel& surfaces) {
+  Surface& now = surfaces.surface(slot);
+  const Surface before = now;
+  now = surfaceOf(cells_[slot], voxels_[slot], voxel_size_);
+  now.back_surface = before.back_surface;
   if (side == Side::kKeep) now.side = before.side;
   cells_[slot].stale = false;
 }
 
-void GaussianLevel::updateSelected() {
+void MomentLevel::updateSelected(SurfaceLevel& surfaces) {
   for (const uint32_t slot : stale_) {
     if (!cells_[slot].stale) continue;
     if (cells_[slot].selected) {
-      update(slot, Side::kRefresh);
+      update(slot, Side::kRefresh, surfaces);
     } else {
       stale_unselected_.push_back(slot);
     }
@@ -305,66 +240,53 @@ void GaussianLevel::updateSelected() {
   if (stale_unselected_.size() > 2 * size()) dropRepeats();
 }
 
-void GaussianLevel::dropRepeats() {
+void MomentLevel::dropRepeats() {
   auto& slots = stale_unselected_;
   std::sort(slots.begin(), slots.end());
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
-void GaussianLevel::updateAll() {
+void MomentLevel::updateAll(SurfaceLevel& surfaces) {
   for (const auto* slots : {&stale_, &stale_unselected_}) {
     for (const uint32_t slot : *slots) {
-      if (cells_[slot].stale) update(slot, Side::kKeep);
+      if (cells_[slot].stale) update(slot, Side::kKeep, surfaces);
     }
   }
   stale_.clear();
   stale_unselected_.clear();
 }
 
-void GaussianLevel::select(uint32_t slot, bool selected) {
+void MomentLevel::select(uint32_t slot, bool selected, SurfaceLevel& surfaces) {
   if (cells_[slot].selected == selected) return;
-  const VoxelIndex& v = voxels_[slot];
-  const auto block = static_cast<size_t>(grid_.findBlock(Layout::block(v)));
-  selected_[block].flip(Layout::cell(v));
-  selected ? ++selected_count_ : --selected_count_;
-  for (uint32_t side = slot; side != VoxelGaussian::kNoTwin; side = gaussians_[side].twin) {
+  surfaces.setSelected(voxels_[slot], selected);
+  for (uint32_t side = slot; side != Surface::kNone; side = surfaces.surface(side).back_surface) {
     cells_[side].selected = selected;
-    if (selected) update(side, Side::kRefresh);
+    if (selected) update(side, Side::kRefresh, surfaces);
   }
 }
 
-void GaussianLevel::findFlatAxis(uint32_t slot) {
-  const Surface surface(covarianceOf(cells_[slot], voxel_size_));
-  const bool anchors = surface.flat && surface.patch > kLeastPatch;
-  cells_[slot].flat_axis = anchors ? static_cast<int8_t>(surface.axis) : kNotFlat;
+void MomentLevel::findFlatAxis(uint32_t slot) {
+  const Shape shape(covarianceOf(cells_[slot], voxel_size_));
+  const bool anchors = shape.flat && shape.patch > kLeastPatch;
+  cells_[slot].flat_axis = anchors ? static_cast<int8_t>(shape.axis) : kNotFlat;
 }
 
-Moments GaussianLevel::moments(uint32_t slot) const {
+Moments MomentLevel::moments(uint32_t slot) const {
   const Cell& cell = cells_[slot];
   return {static_cast<double>(cell.count),
           {cell.sum[0], cell.sum[1], cell.sum[2]},
           symmetric(cell.outer)};
 }
 
-Eigen::Vector3d GaussianLevel::normal(uint32_t slot) const {
-  const Surface surface(covarianceOf(cells_[slot], voxel_size_));
-  return surface.flat ? surface.normal : Eigen::Vector3d::Zero();
+Eigen::Vector3d MomentLevel::normal(uint32_t slot) const {
+  const Shape shape(covarianceOf(cells_[slot], voxel_size_));
+  return shape.flat ? shape.normal : Eigen::Vector3d::Zero();
 }
 
-size_t GaussianLevel::selectedGaussians() const {
+size_t MomentLevel::selectedSurfaces() const {
   size_t count = 0;
   for (uint32_t slot = 0; slot < size(); ++slot) count += cells_[slot].selected ? 1 : 0;
   return count;
-}
-
-size_t GaussianLevel::blocksWithSelection() const {
-  return static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(),
-                                           [](const Grid::Bits& bits) { return bits.any(); }));
-}
-
-size_t GaussianLevel::bytes() const {
-  return grid_.bytes() + selected_.size() * sizeof(Grid::Bits) + cells_.bytes() + voxels_.bytes() +
-         gaussians_.bytes();
 }
 
 }  // namespace edgevox

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Gaussians of a map against their formula in double precision.
+// The surfaces of a map against their formula in double precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "support/random.hpp"
 #include "support/scans.hpp"
 
@@ -22,8 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-OccupiedVoxelMap mapOf(const std::vector<Centroids>& scans) {
-  OccupiedVoxelMap map(kScanMapVoxel, 3.2, MapConfig{}, EdgeConfig{}, 1);
+MapBuilder mapOf(const std::vector<Centroids>& scans) {
+  MapBuilder map(kScanMapVoxel, 3.2, MapConfig{}, EdgeConfig{}, 1);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
   map.label();
   return map;
@@ -82,7 +82,7 @@ struct GaussianErrors {
   double lone = 0.0;         ///< the same where all directions are alike: ill-conditioned
   int compared = 0;
 
-  void add(const VoxelGaussian& actual, const Gaussian& expected) {
+  void add(const Surface& actual, const Gaussian& expected) {
     const Eigen::Matrix3d difference = symmetric(actual.information) - expected.information;
     mean = std::max(mean, (actual.mean.cast<double>() - expected.mean).norm());
     const double largest = expected.inverse.cwiseAbs().maxCoeff();
@@ -94,16 +94,15 @@ struct GaussianErrors {
 };
 
 /// Of a map that has seen no surface from behind.
-GaussianErrors errorsOf(const OccupiedVoxelMap& map, const std::vector<Centroids>& scans,
-                        bool all) {
+GaussianErrors errorsOf(const MapBuilder& map, const std::vector<Centroids>& scans, bool all) {
   GaussianErrors errors;
-  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
-    const GaussianLevel& gaussians = map.gaussians(level);
+  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+    const SurfaceLevel& surfaces = map.matchMap().surfaces(level);
     for (const auto& [v, cell] : accumulate(scans, level)) {
-      const uint32_t slot = gaussians.slotOf(v);
-      if (!all && !gaussians.cell(slot).selected) continue;
-      EXPECT_EQ(VoxelGaussian::kNoTwin, gaussians.gaussian(slot).twin);
-      errors.add(gaussians.gaussian(slot), gaussianOf(cell.centroids, {}, map.voxelSize(level)));
+      const uint32_t slot = surfaces.slotOf(v);
+      if (!all && !map.moments(level).cell(slot).selected) continue;
+      EXPECT_FALSE(surfaces.hasBack(slot));
+      errors.add(surfaces.surface(slot), gaussianOf(cell.centroids, {}, map.voxelSize(level)));
     }
   }
   return errors;
@@ -118,9 +117,9 @@ void expectSmall(const GaussianErrors& errors) {
   EXPECT_LT(errors.lone, 1e-2);
 }
 
-TEST(Gaussians, OfAllVoxelsAreThoseOfAllCentroids) {
+TEST(Surfaces, OfAllVoxelsAreThoseOfAllCentroids) {
   const auto scans = randomScans(9, 5);
-  OccupiedVoxelMap map = mapOf(scans);
+  MapBuilder map = mapOf(scans);
   map.prepareAll();
   const GaussianErrors errors = errorsOf(map, scans, true);
   EXPECT_EQ(accumulate(scans, 1).size() + accumulate(scans, 2).size(),
@@ -128,11 +127,11 @@ TEST(Gaussians, OfAllVoxelsAreThoseOfAllCentroids) {
   expectSmall(errors);
 }
 
-TEST(Gaussians, OfSelectedVoxelsAreUpToDateAfterEveryScan) {
+TEST(Surfaces, OfSelectedVoxelsAreUpToDateAfterEveryScan) {
   const auto scans = randomScans(12, 6);
   MapConfig config;
   config.label_every = 2;
-  OccupiedVoxelMap map(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
+  MapBuilder map(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
   for (size_t scan = 0; scan < scans.size(); ++scan) {
     map.insert(scans[scan], farSensor());
     const auto so_far = static_cast<std::ptrdiff_t>(scan) + 1;
@@ -164,9 +163,25 @@ struct TwoSidedVoxel {
   }
 };
 
+/// Surfaces and the moments they are computed from.
+struct Level {
+  SurfaceLevel surfaces;
+  MomentLevel moments;
+
+  explicit Level(double voxel_size) : surfaces(voxel_size), moments(voxel_size) {}
+  void add(const VoxelIndex& v, const Vector3d& point, const Eigen::Vector3f& to_sensor,
+           uint32_t scan) {
+    moments.add(moments.slotFor(v, surfaces), point, to_sensor, scan, surfaces);
+  }
+  void select(const VoxelIndex& v, bool selected) {
+    moments.select(surfaces.slotOf(v), selected, surfaces);
+  }
+  const Surface& surface(const VoxelIndex& v) const { return surfaces.surface(surfaces.slotOf(v)); }
+};
+
 /// A room's walls, seen from anywhere inside and outside: many from both sides.
 struct TwoSidedLevel {
-  GaussianLevel level{TwoSidedVoxel::kSize};
+  Level level{TwoSidedVoxel::kSize};
   std::map<VoxelIndex, TwoSidedVoxel> expected;
   std::vector<Centroids> scans = randomScans(21, 8);
 
@@ -180,12 +195,12 @@ struct TwoSidedLevel {
     for (const Vector3d& centroid : scan) {
       const VoxelIndex v = voxelAt(centroid, 1.0 / TwoSidedVoxel::kSize);
       const Eigen::Vector3f to_sensor = (sensor - centroid).normalized().cast<float>();
-      level.add(level.slotFor(v), centroid, to_sensor, number);
+      level.add(v, centroid, to_sensor, number);
       expected[v].add(centroid, to_sensor.cast<double>());
     }
     for (auto& [v, voxel] : expected) {
-      level.select(level.slotOf(v), true);  // which updates all of it
-      level.select(level.slotOf(v), false);
+      level.select(v, true);  // which updates all of it
+      level.select(v, false);
       for (auto& side : voxel.sides) side.update();
     }
   }
@@ -195,59 +210,61 @@ TEST(Sides, AreThoseOfTheDefinition) {
   const TwoSidedLevel both;
   GaussianErrors errors;
   double side_error = 0.0;
-  int twins = 0;
+  int backs = 0;
   for (const auto& [v, voxel] : both.expected) {
-    const VoxelGaussian* actual = &both.level.gaussian(both.level.slotOf(v));
-    ASSERT_EQ(voxel.sides.size() == 2, actual->twin != VoxelGaussian::kNoTwin);
+    const Surface* actual = &both.level.surface(v);
+    ASSERT_EQ(voxel.sides.size() == 2, actual->back_surface != Surface::kNone);
     for (const auto& side : voxel.sides) {
       errors.add(*actual, side.gaussian);
       const double error = (actual->side.cast<double>() - side.gaussian.side).norm();
       side_error = std::max(side_error, error / side.gaussian.side.norm());
-      if (voxel.sides.size() == 2)
-        actual = &both.level.gaussian(both.level.gaussian(both.level.slotOf(v)).twin);
+      if (voxel.sides.size() == 2) {
+        actual = &both.level.surfaces.surface(both.level.surface(v).back_surface);
+      }
     }
-    twins += voxel.sides.size() == 2 ? 1 : 0;
+    backs += voxel.sides.size() == 2 ? 1 : 0;
   }
   ::testing::Test::RecordProperty("voxels", static_cast<int>(both.expected.size()));
-  ::testing::Test::RecordProperty("twins", twins);
+  ::testing::Test::RecordProperty("backs", backs);
   ::testing::Test::RecordProperty("side_error", std::to_string(side_error * 1e6) + "e-6");
-  EXPECT_GT(twins, 50);
-  EXPECT_GT(static_cast<int>(both.expected.size()) - twins, 50);
+  EXPECT_GT(backs, 50);
+  EXPECT_GT(static_cast<int>(both.expected.size()) - backs, 50);
   EXPECT_LT(side_error, 1e-2);
   expectSmall(errors);
 }
 
-double squaredDistance(const VoxelGaussian& gaussian, const Eigen::Vector3f& point) {
+double squaredDistance(const Surface& gaussian, const Eigen::Vector3f& point) {
   const Vector3d e = (point - gaussian.mean).cast<double>();
   return e.dot(symmetric(gaussian.information) * e);
 }
 
 /// The surface of a voxel that faces the sensor, if there is one.
-const VoxelGaussian* facing(const GaussianLevel& level, const VoxelIndex& v,
-                            const Eigen::Vector3f& to_sensor, bool all) {
-  const uint32_t slot = level.slotOf(v);
-  if (slot == SlotGrid<8>::kNone || !(all || level.cell(slot).selected)) return nullptr;
-  const VoxelGaussian& first = level.gaussian(slot);
+const Surface* facing(const Level& level, const VoxelIndex& v, const Eigen::Vector3f& to_sensor,
+                      bool all) {
+  const uint32_t slot = level.surfaces.slotOf(v);
+  if (slot == Surface::kNone || !(all || level.moments.cell(slot).selected)) return nullptr;
+  const Surface& first = level.surfaces.surface(slot);
   if (!(first.side.dot(to_sensor) < -1)) return &first;
-  return first.twin == VoxelGaussian::kNoTwin ? nullptr : &level.gaussian(first.twin);
+  return level.surfaces.hasBack(slot) ? &level.surfaces.surface(first.back_surface) : nullptr;
 }
 
 /// Returns the number of candidates.
-int expectNearest(const GaussianLevel& level, const Eigen::Vector3f& point,
+int expectNearest(const Level& level, const Eigen::Vector3f& point,
                   const Eigen::Vector3f& to_sensor, bool all) {
-  const VoxelIndex centre = voxelAt(point, 1.0 / level.voxelSize());
+  const VoxelIndex centre = voxelAt(point, 1.0 / level.surfaces.voxelSize());
   double least = std::numeric_limits<double>::infinity();
   int candidates = 0;
   for (const VoxelIndex& offset : std::vector<VoxelIndex>{
            {0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
-    const VoxelGaussian* candidate = facing(level, centre + offset, to_sensor, all);
+    const Surface* candidate = facing(level, centre + offset, to_sensor, all);
     if (candidate == nullptr) continue;
     least = std::min(least, squaredDistance(*candidate, point));
     ++candidates;
   }
   float distance = 0.0F;
-  const VoxelGaussian* nearest =
-      level.nearest(level.around(level.voxelOf(point), all), point, to_sensor, distance);
+  const SurfaceLevel& surfaces = level.surfaces;
+  const Surface* nearest =
+      surfaces.nearest(surfaces.around(surfaces.voxelOf(point), all), point, to_sensor, distance);
   EXPECT_EQ(std::isinf(least), nearest == nullptr);
   if (nearest == nullptr || candidates == 0) return 0;
   const double tolerance = 1e-4 * (1.0 + least);
@@ -260,7 +277,7 @@ TEST(Nearest, IsThatOfTheSevenVoxelsThatFaceTheSensor) {
   TwoSidedLevel both;
   Random random(11);
   for (const auto& entry : both.expected) {
-    if (random.chance(0.3)) both.level.select(both.level.slotOf(entry.first), true);
+    if (random.chance(0.3)) both.level.select(entry.first, true);
   }
   std::array<int, 2> candidates{};  // by all
   for (const Vector3d& centroid : both.scans[0]) {
@@ -275,22 +292,22 @@ TEST(Nearest, IsThatOfTheSevenVoxelsThatFaceTheSensor) {
   EXPECT_GT(candidates[1], 2 * candidates[0]);
 }
 
-TEST(Selection, CountsVoxelsAndTheirGaussians) {
+TEST(Selection, CountsVoxelsAndTheirSurfaces) {
   TwoSidedLevel both;
   size_t voxels = 0;
   size_t gaussians = 0;
   for (const auto& [v, voxel] : both.expected) {
     if (voxelHash(v) % 3 != 0) continue;
-    both.level.select(both.level.slotOf(v), true);
-    both.level.select(both.level.slotOf(v), true);
+    both.level.select(v, true);
+    both.level.select(v, true);
     ++voxels;
     gaussians += voxel.sides.size();
   }
-  EXPECT_EQ(voxels, both.level.selectedCount());
-  EXPECT_EQ(gaussians, both.level.selectedGaussians());
-  for (const auto& entry : both.expected) both.level.select(both.level.slotOf(entry.first), false);
-  EXPECT_EQ(0U, both.level.selectedCount());
-  EXPECT_EQ(0U, both.level.selectedGaussians());
+  EXPECT_EQ(voxels, both.level.surfaces.selectedCount());
+  EXPECT_EQ(gaussians, both.level.moments.selectedSurfaces());
+  for (const auto& entry : both.expected) both.level.select(entry.first, false);
+  EXPECT_EQ(0U, both.level.surfaces.selectedCount());
+  EXPECT_EQ(0U, both.level.moments.selectedSurfaces());
 }
 
 /// Points of a slanted plane in the voxel (0, 0, 0) of 0.4 m.
@@ -303,26 +320,25 @@ Centroids pointsOfAPlane(Random& random, int count, double height) {
   return points;
 }
 
-void addTo(GaussianLevel& level, const Centroids& points) {
-  const uint32_t slot = level.slotFor({0, 0, 0});
-  for (const Vector3d& point : points) level.add(slot, point, {0, 0, 1}, 1);
+void addTo(Level& level, const Centroids& points) {
+  for (const Vector3d& point : points) level.add({0, 0, 0}, point, {0, 0, 1}, 1);
 }
 
-TEST(SetMoments, GivesTheGaussianOfThesePoints) {
+TEST(SetMoments, GivesTheSurfaceOfThesePoints) {
   constexpr double kVoxel = 0.4;
   Random random(8);
   const Centroids kept = pointsOfAPlane(random, 60, 0.05);
   Moments moments;
   for (const Vector3d& point : kept) moments += Moments::at(point, 1);
-  GaussianLevel expected(kVoxel);
+  Level expected(kVoxel);
   addTo(expected, kept);
-  GaussianLevel level(kVoxel);
+  Level level(kVoxel);
   addTo(level, kept);
   addTo(level, pointsOfAPlane(random, 40, 0.25));
-  level.setMoments(0, moments.about(voxelCentre({0, 0, 0}, kVoxel)));
-  for (GaussianLevel* each : {&expected, &level}) each->select(0, true);
-  const VoxelGaussian& a = expected.gaussian(0);
-  const VoxelGaussian& b = level.gaussian(0);
+  level.moments.setMoments(0, moments.about(voxelCentre({0, 0, 0}, kVoxel)));
+  for (Level* each : {&expected, &level}) each->select({0, 0, 0}, true);
+  const Surface& a = expected.surface({0, 0, 0});
+  const Surface& b = level.surface({0, 0, 0});
   EXPECT_LT((a.mean - b.mean).norm(), 1e-6F);
   EXPECT_LT((a.side - b.side).norm(), 1e-2F * a.side.norm());
   for (size_t i = 0; i < 6; ++i) {

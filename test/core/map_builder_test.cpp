@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/occupied_voxel_map.hpp"
+#include "edgevox/map_builder.hpp"
 #include "support/reference_extractor.hpp"
 #include "support/scans.hpp"
 
@@ -26,8 +26,8 @@ using Eigen::Vector3d;
 constexpr double kSize = kScanMapVoxel;
 constexpr double kCoarsest = 3.2;  // [m]
 
-OccupiedVoxelMap makeMap(const MapConfig& config, int threads = 1, const EdgeConfig& edges = {}) {
-  return OccupiedVoxelMap(kSize, kCoarsest, config, edges, threads);
+MapBuilder makeMap(const MapConfig& config, int threads = 1, const EdgeConfig& edges = {}) {
+  return MapBuilder(kSize, kCoarsest, config, edges, threads);
 }
 
 MapConfig withLabelEvery(int scans) {
@@ -104,31 +104,30 @@ Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges, 
   return sorted(std::move(selected));
 }
 
-Voxels selectedIn(const OccupiedVoxelMap& map, int level, const AccumulatedCells& cells) {
+Voxels selectedIn(const MapBuilder& map, int level, const AccumulatedCells& cells) {
   Voxels selected;
   for (const auto& entry : cells) {
-    const GaussianLevel& gaussians = map.gaussians(level);
-    if (gaussians.cell(gaussians.slotOf(entry.first)).selected) selected.push_back(entry.first);
+    const uint32_t slot = map.matchMap().surfaces(level).slotOf(entry.first);
+    if (map.moments(level).cell(slot).selected) selected.push_back(entry.first);
   }
   return selected;
 }
 
-void expectMapOf(const std::vector<Centroids>& scans, const OccupiedVoxelMap& map,
+void expectMapOf(const std::vector<Centroids>& scans, const MapBuilder& map,
                  const MapConfig& config) {
   const Voxels hit = withHits(accumulate(scans, 0), config.min_hits);
   EXPECT_TRUE(sameVoxels(hit, voxelsOf(map.hitVoxels())));
   const Voxels edges = labelledAtOnce(hit);
   EXPECT_TRUE(sameVoxels(edges, voxelsOf(map.edgeVoxels())));
-  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
     const Voxels selected = selectedAtOnce(scans, edges, level, config);
     EXPECT_TRUE(sameVoxels(selected, selectedIn(map, level, accumulate(scans, level)))) << level;
-    EXPECT_EQ(selected.size(), map.gaussians(level).selectedCount());
+    EXPECT_EQ(selected.size(), map.matchMap().surfaces(level).selectedCount());
   }
 }
 
-OccupiedVoxelMap mapOf(const std::vector<Centroids>& scans, const MapConfig& config,
-                       int threads = 1) {
-  OccupiedVoxelMap map = makeMap(config, threads);
+MapBuilder mapOf(const std::vector<Centroids>& scans, const MapConfig& config, int threads = 1) {
+  MapBuilder map = makeMap(config, threads);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
   map.label();
   return map;
@@ -145,7 +144,7 @@ TEST(Labels, AreThoseOfTheWholeMapHoweverBatched) {
 TEST(Labels, AreThoseOfTheWholeMapAfterEveryScan) {
   const auto scans = randomScans(2, 7);
   const MapConfig config = withLabelEvery(1);
-  OccupiedVoxelMap map = makeMap(config);
+  MapBuilder map = makeMap(config);
   Voxels before;
   size_t lost = 0;
   for (size_t scan = 0; scan < scans.size(); ++scan) {
@@ -162,7 +161,7 @@ TEST(Labels, AreThoseOfTheWholeMapAfterEveryScan) {
 
 TEST(Labels, ComeEveryFewScans) {
   const auto scans = randomScans(3, 4);
-  OccupiedVoxelMap map = makeMap(withLabelEvery(4));
+  MapBuilder map = makeMap(withLabelEvery(4));
   for (int scan = 0; scan < 3; ++scan) map.insert(scans[static_cast<size_t>(scan)], farSensor());
   EXPECT_EQ(0U, map.edgeVoxels().voxelCount());
   map.insert(scans[3], farSensor());
@@ -194,7 +193,7 @@ TEST(Labels, FollowSingleVoxelsOverTheirWholeReach) {
   for (const EdgeConfig& edges : {withNeighbours(0), withNeighbours(2), withNeighbours(8),
                                   withNeighbours(8, EdgeMode::kPaper)}) {
     Random random(17);
-    OccupiedVoxelMap map = makeMap(config, 1, edges);
+    MapBuilder map = makeMap(config, 1, edges);
     map.insert(centresOf(randomCloud(random, 14, 0.1)), farSensor());  // across eight blocks
     for (int i = 0; i < 300; ++i) {
       map.insert(centresOf({random.voxelIn(-7, 6)}), farSensor());
@@ -222,7 +221,7 @@ TEST(Anchors, MayBeNoneOrAll) {
 }
 
 TEST(Hits, CountScansNotCentroids) {
-  OccupiedVoxelMap map = makeMap({});
+  MapBuilder map = makeMap({});
   const Centroids three = {{1.01, 0.01, 0.01}, {1.02, 0.01, 0.01}, {1.03, 0.01, 0.01}};
   const VoxelIndex v{10, 0, 0};
   map.insert(three, farSensor());
@@ -232,14 +231,14 @@ TEST(Hits, CountScansNotCentroids) {
   map.insert({three[0]}, farSensor());
   EXPECT_TRUE(map.hitVoxels().test(v));
   EXPECT_EQ(3U, map.scans());
-  const GaussianLevel& level = map.gaussians(1);
-  EXPECT_EQ(2, level.cell(level.slotOf({5, 0, 0})).hits);
-  EXPECT_EQ(4U, level.cell(level.slotOf({5, 0, 0})).count);
+  const uint32_t slot = map.matchMap().surfaces(1).slotOf({5, 0, 0});
+  EXPECT_EQ(2, map.moments(1).cell(slot).hits);
+  EXPECT_EQ(4U, map.moments(1).cell(slot).count);
 }
 
 TEST(Centroid, IsTheMeanOfAllThatFellIn) {
   const auto scans = randomScans(7, 4);
-  const OccupiedVoxelMap map = mapOf(scans, {});
+  const MapBuilder map = mapOf(scans, {});
   for (const auto& [v, cell] : accumulate(scans, 0)) {
     Vector3d mean = Vector3d::Zero();
     for (const Vector3d& centroid : cell.centroids) mean += centroid;
@@ -250,21 +249,21 @@ TEST(Centroid, IsTheMeanOfAllThatFellIn) {
 
 TEST(Levels, HoldTheBitsOfAllCentroids) {
   const auto scans = randomScans(8, 2);
-  const OccupiedVoxelMap map = mapOf(scans, {});
+  const MapBuilder map = mapOf(scans, {});
   ASSERT_EQ(6, map.levels());  // 0.1 to 3.2 m
   for (int level = 1; level < map.levels(); ++level) {
     EXPECT_DOUBLE_EQ(kSize * (1 << level), map.voxelSize(level));
     const Voxels all = withHits(accumulate(scans, level), 1);
-    EXPECT_TRUE(sameVoxels(all, voxelsOf(map.occupied(level)))) << level;
+    EXPECT_TRUE(sameVoxels(all, voxelsOf(map.matchMap().occupied(level)))) << level;
   }
 }
 
 TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
   const auto scans = randomScans(12, 4);
   const MapConfig config = withRepresentation(Representation::kAll);
-  OccupiedVoxelMap map = makeMap(config);
+  MapBuilder map = makeMap(config);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
-  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
+  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
     const AccumulatedCells cells = accumulate(scans, level);
     EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), selectedIn(map, level, cells)));
   }
@@ -276,11 +275,11 @@ TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
 
 TEST(Representations, RandomSelectsAsManyAsEdges) {
   const auto scans = randomScans(13, 4, {140, 110, 60});
-  const OccupiedVoxelMap edges = mapOf(scans, withRepresentation(Representation::kEdges));
-  const OccupiedVoxelMap random = mapOf(scans, withRepresentation(Representation::kRandom));
-  for (int level = 1; level <= OccupiedVoxelMap::kGaussianLevels; ++level) {
-    const auto expected = static_cast<double>(edges.gaussians(level).selectedCount());
-    const auto actual = static_cast<double>(random.gaussians(level).selectedCount());
+  const MapBuilder edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const MapBuilder random = mapOf(scans, withRepresentation(Representation::kRandom));
+  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+    const auto expected = static_cast<double>(edges.matchMap().surfaces(level).selectedCount());
+    const auto actual = static_cast<double>(random.matchMap().surfaces(level).selectedCount());
     RecordProperty("edges_" + std::to_string(level), static_cast<int>(expected));
     RecordProperty("random_" + std::to_string(level), static_cast<int>(actual));
     EXPECT_NEAR(expected, actual, 3 * std::sqrt(expected)) << level;
@@ -292,8 +291,8 @@ TEST(Representations, RandomSelectsAsManyAsEdges) {
 
 TEST(Representations, EdgesPackSmallerThanAll) {
   const auto scans = randomScans(14, 5);
-  const OccupiedVoxelMap edges = mapOf(scans, withRepresentation(Representation::kEdges));
-  const OccupiedVoxelMap all = mapOf(scans, withRepresentation(Representation::kAll));
+  const MapBuilder edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const MapBuilder all = mapOf(scans, withRepresentation(Representation::kAll));
   const double ratio =
       static_cast<double>(all.packedBytes()) / static_cast<double>(edges.packedBytes());
   RecordProperty("all_to_edges", std::to_string(ratio));
@@ -306,7 +305,7 @@ TEST(Representations, EdgesPackSmallerThanAll) {
 TEST(Clear, ReturnsToANewMap) {
   const auto first = randomScans(15, 3);
   const auto second = randomScans(16, 5);
-  OccupiedVoxelMap map = mapOf(first, {});
+  MapBuilder map = mapOf(first, {});
   map.insert({{1e9, 0, 0}}, farSensor());
   map.clear();
   EXPECT_TRUE(map.empty());
@@ -333,19 +332,19 @@ TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
       bad.push_back(centroid);
     }
   }
-  OccupiedVoxelMap map = makeMap(withLabelEvery(1));
+  MapBuilder map = makeMap(withLabelEvery(1));
   map.insert(bad, farSensor());
   map.insert(bad, farSensor());
   EXPECT_EQ(2 * bad.size(), map.ignoredCentroids());
   EXPECT_EQ(0U, map.hitVoxels().voxelCount());
-  EXPECT_EQ(0U, map.gaussians(1).size());
+  EXPECT_EQ(0U, map.matchMap().surfaces(1).slotCount());
 }
 
 TEST(OutOfRange, VoxelsNearTheLimitAreKept) {
   const double near = (kIndexLimit - 2) * kSize;
   MapConfig config;
   config.confirm_within = 0;
-  OccupiedVoxelMap map = makeMap(config);
+  MapBuilder map = makeMap(config);
   for (int scan = 0; scan < 2; ++scan)
     map.insert({{near, near, near}, {-near, -near, -near}}, farSensor());
   EXPECT_EQ(0U, map.ignoredCentroids());
