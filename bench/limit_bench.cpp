@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "benchmarks.hpp"
-#include "edgevox/edge_extractor.hpp"
-#include "edgevox/map_builder.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "sequence.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"

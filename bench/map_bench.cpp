@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "benchmarks.hpp"
-#include "core/scan_sample.hpp"
-#include "edgevox/map_builder.hpp"
-#include "edgevox/matcher.hpp"
-#include "edgevox/pipeline.hpp"
+#include "core/scan/scan_sample.hpp"
+#include "edgevox/map/map_builder.hpp"
+#include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/matching/matcher.hpp"
 #include "sequence.hpp"
 
 namespace edgevox::bench {

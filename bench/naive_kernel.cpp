@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/edge_kernel.hpp"
+#include "core/edges/edge_kernel.hpp"
 
 namespace edgevox::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/dense_kernel.hpp"
+#include "core/edges/dense_kernel.hpp"
 
 namespace edgevox::bench {
 

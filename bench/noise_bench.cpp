@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "benchmarks.hpp"
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 

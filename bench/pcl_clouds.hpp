@@ -5,7 +5,7 @@
 #include <pcl/point_types.h>
 
 #include "edgevox/config.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 
 namespace edgevox::bench {
 

@@ -7,10 +7,10 @@
 #include <pcl/filters/voxel_grid.h>
 
 #include "benchmarks.hpp"
-#include "core/dense_kernel.hpp"
-#include "core/edge_kernel.hpp"
-#include "core/neighbourhood.hpp"
-#include "edgevox/edge_extractor.hpp"
+#include "core/edges/dense_kernel.hpp"
+#include "core/edges/edge_kernel.hpp"
+#include "core/grid/neighbourhood.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
 #include "naive_kernel.hpp"
 #include "pcl_clouds.hpp"
 #include "sequence.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "edgevox/motion.hpp"
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/scan/motion.hpp"
 #include "ros/point_cloud.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"

@@ -8,7 +8,8 @@
 #include <Eigen/Core>
 
 #include "edgevox/config.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "evaluation/recording.hpp"
 
 namespace edgevox::bench {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox::bench {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <variant>
 
-#include "edgevox/pipeline.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
+#include "edgevox/io/trajectory_evaluation.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "ros/point_cloud.hpp"
 #include "tools/bag_reader.hpp"
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 
 namespace edgevox {
 

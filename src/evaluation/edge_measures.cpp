@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "edgevox/edge_extractor.hpp"
-#include "edgevox/map_builder.hpp"
-#include "edgevox/recent_edges.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/edges/recent_edges.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
 #include "evaluation/edge_truth.hpp"

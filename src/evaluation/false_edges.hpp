@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "edgevox/block_grid.hpp"
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/block_grid.hpp"
+#include "edgevox/grid/voxel.hpp"
 #include "sim/sensor.hpp"
 #include "sim/world.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 #include "evaluation/recording.hpp"
 #include "sim/world.hpp"
 

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "edgevox/block_grid.hpp"
-#include "edgevox/map_builder.hpp"
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/block_grid.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/map_builder.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
 #include "evaluation/recording.hpp"
 
 namespace edgevox {

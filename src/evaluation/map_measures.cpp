@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <optional>
 
-#include "core/scan_sample.hpp"
-#include "edgevox/pipeline.hpp"
+#include "core/scan/scan_sample.hpp"
+#include "edgevox/io/trajectory_evaluation.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/statistics.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
 #include "evaluation/labelled_voxels.hpp"
 #include "sim/random.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/motion.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/motion.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "sim/movers.hpp"
 #include "sim/scanner.hpp"
 #include "sim/sensor.hpp"

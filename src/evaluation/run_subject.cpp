@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
+#include "edgevox/io/atomic_file.hpp"
+#include "edgevox/io/trajectory_evaluation.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
 #include "run/run_folder.hpp"

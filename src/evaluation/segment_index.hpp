@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
 

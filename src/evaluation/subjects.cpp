@@ -4,7 +4,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 #include "evaluation/plot.hpp"
 #include "tools/config_file.hpp"
 

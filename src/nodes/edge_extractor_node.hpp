@@ -10,8 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "edgevox/edge_extractor.hpp"
-#include "edgevox/sparse_alarm.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
 #include "nodes/diagnostics.hpp"
 #include "ros/parameters.hpp"
 #include "ros/scan_input.hpp"

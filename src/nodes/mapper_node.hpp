@@ -10,8 +10,8 @@
 #include <mutex>
 #include <string>
 
-#include "edgevox/clock_watch.hpp"
-#include "edgevox/mapper.hpp"
+#include "edgevox/mapping/mapper.hpp"
+#include "edgevox/tracking/clock_watch.hpp"
 #include "nodes/diagnostics.hpp"
 #include "nodes/mapper_status.hpp"
 #include "nodes/scan_report.hpp"

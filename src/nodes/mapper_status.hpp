@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "edgevox/map_builder.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "nodes/diagnostics.hpp"
 #include "run/run_record.hpp"
 

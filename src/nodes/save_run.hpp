@@ -4,7 +4,7 @@
 #include <string>
 
 #include "edgevox/config.hpp"
-#include "edgevox/map_builder.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "run/run_record.hpp"
 
 namespace edgevox {

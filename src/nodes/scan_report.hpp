@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "edgevox/mapper.hpp"
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/mapper.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "ros/scan_transforms.hpp"
 
 namespace edgevox {

@@ -9,7 +9,8 @@
 #include <mutex>
 #include <string>
 
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "nodes/diagnostics.hpp"
 #include "ros/parameters.hpp"
 #include "ros/point_cloud.hpp"

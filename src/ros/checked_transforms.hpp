@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "edgevox/clock_watch.hpp"
+#include "edgevox/tracking/clock_watch.hpp"
 
 namespace edgevox {
 

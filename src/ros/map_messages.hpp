@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/map_builder.hpp"
+#include "edgevox/map/map_builder.hpp"
 
 namespace edgevox {
 

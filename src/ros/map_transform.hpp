@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/mapper.hpp"
+#include "edgevox/mapping/mapper.hpp"
 #include "ros/checked_transforms.hpp"
 #include "ros/scan_transforms.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 
 namespace edgevox {
 

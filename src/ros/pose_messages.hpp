@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "edgevox/matcher.hpp"
-#include "edgevox/motion.hpp"
+#include "edgevox/matching/matcher.hpp"
+#include "edgevox/scan/motion.hpp"
 
 namespace edgevox {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "edgevox/mapper.hpp"
+#include "edgevox/mapping/mapper.hpp"
 
 namespace edgevox {
 

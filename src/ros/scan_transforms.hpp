@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "edgevox/mapper.hpp"
+#include "edgevox/mapping/mapper.hpp"
 #include "ros/scan_refusal.hpp"
 #include "ros/sensor_frames.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
 

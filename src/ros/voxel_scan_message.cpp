@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 
 #include "ros/stamp.hpp"
 

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
 #include "ros/scan_refusal.hpp"
 
 namespace edgevox {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 
 namespace edgevox {
 namespace {

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 
 namespace edgevox {
 namespace {

@@ -9,7 +9,7 @@
 #include <exception>
 #include <string>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 
 namespace edgevox {
 namespace {

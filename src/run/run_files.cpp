@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/number_text.hpp"
+#include "edgevox/io/atomic_file.hpp"
+#include "edgevox/io/number_text.hpp"
 #include "edgevox/statistics.hpp"
 #include "run/map_files.hpp"
 #include "run/run_folder.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "edgevox/config.hpp"
-#include "edgevox/map_builder.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
+#include "edgevox/io/trajectory_evaluation.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "run/report.hpp"
 #include "run/run_record.hpp"
 

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 
 namespace edgevox {
 namespace {

@@ -8,8 +8,9 @@
 #include <map>
 #include <string>
 
-#include "edgevox/pipeline.hpp"
-#include "edgevox/trajectory_io.hpp"
+#include "edgevox/io/trajectory_io.hpp"
+#include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
 
 namespace edgevox {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "ros/point_cloud.hpp"
 #include "ros/scan_transforms.hpp"
 #include "run/run_record.hpp"

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/trajectory_evaluation.hpp"
+#include "edgevox/io/atomic_file.hpp"
+#include "edgevox/io/trajectory_evaluation.hpp"
 #include "run/run_files.hpp"
 #include "tools/bag_reader.hpp"
 #include "tools/cloud_mapping.hpp"

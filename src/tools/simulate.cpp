@@ -27,7 +27,7 @@
 #include <string>
 #include <thread>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 #include "tools/console.hpp"

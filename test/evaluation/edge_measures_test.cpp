@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/edge_extractor.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/statistics.hpp"
 #include "support/sweeps.hpp"
 #include "table_rows.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/map_builder.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "sim/parts.hpp"
 
 namespace edgevox {

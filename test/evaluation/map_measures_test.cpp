@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/pipeline.hpp"
 #include "table_rows.hpp"
 
 namespace edgevox {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "edgevox/edge_extractor.hpp"
-#include "edgevox/sparse_alarm.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/edges/sparse_alarm.hpp"
 #include "nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
 #include "ros/voxel_scan_message.hpp"

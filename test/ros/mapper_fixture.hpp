@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/pipeline.hpp"
+#include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
 #include "nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
 #include "ros/voxel_scan_message.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "edgevox/trajectory_io.hpp"
+#include "edgevox/io/trajectory_io.hpp"
 #include "ros/mapper_fixture.hpp"
 #include "support/temp_folder.hpp"
 

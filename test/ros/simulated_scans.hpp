@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "ros/point_cloud.hpp"
 #include "tools/simulated_bag.hpp"
 

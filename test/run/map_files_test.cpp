@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/map_builder.hpp"
+#include "edgevox/io/atomic_file.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "support/temp_folder.hpp"
 
 namespace edgevox {

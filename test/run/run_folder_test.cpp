@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 #include "support/random.hpp"
 #include "support/temp_folder.hpp"
 

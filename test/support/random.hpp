@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox::test {
 

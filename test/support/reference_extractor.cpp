@@ -7,7 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "edgevox/edge_extractor.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
 #include "support/voxel_sets.hpp"
 
 namespace edgevox::test {

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "edgevox/config.hpp"
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox::test {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/voxel.hpp"
 #include "support/random.hpp"
 #include "support/voxel_sets.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "edgevox/motion.hpp"
+#include "edgevox/scan/motion.hpp"
 #include "sim/parts.hpp"
 #include "sim/scanner.hpp"
 #include "support/random.hpp"

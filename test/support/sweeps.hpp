@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
-#include "edgevox/trajectory_io.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/io/trajectory_io.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "sim/sensor.hpp"
 #include "sim/world.hpp"
 #include "sim/worlds.hpp"

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/block_grid.hpp"
-#include "edgevox/voxel.hpp"
+#include "edgevox/grid/block_grid.hpp"
+#include "edgevox/grid/voxel.hpp"
 
 namespace edgevox::test {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/atomic_file.hpp"
-#include "edgevox/trajectory_io.hpp"
+#include "edgevox/io/atomic_file.hpp"
+#include "edgevox/io/trajectory_io.hpp"
 #include "map_bag_fixture.hpp"
 #include "tools/bag_reader.hpp"
 

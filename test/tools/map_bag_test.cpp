@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/motion.hpp"
-#include "edgevox/sparse_alarm.hpp"
-#include "edgevox/trajectory_io.hpp"
+#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/io/trajectory_io.hpp"
+#include "edgevox/scan/motion.hpp"
 #include "map_bag_fixture.hpp"
 
 namespace edgevox {

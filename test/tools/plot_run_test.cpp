@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "edgevox/atomic_file.hpp"
+#include "edgevox/io/atomic_file.hpp"
 #include "map_bag_fixture.hpp"
 #include "run/run_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cloud_message.hpp"
-#include "edgevox/trajectory_io.hpp"
+#include "edgevox/io/trajectory_io.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 

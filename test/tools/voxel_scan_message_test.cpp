@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "cloud_message.hpp"
-#include "edgevox/voxelizer.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 
 namespace edgevox {
 namespace {

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Semi-sparse voxel grids (Ryde et al. 2013, III-C): blocks found by hash, dense bits inside.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <type_traits>
+#include <vector>
+
+#include "edgevox/grid/voxel.hpp"
+
+namespace edgevox {
+
+/// Different in every process, so that nobody can choose coordinates that collide in a hash.
+uint64_t hashSecret();
+
+/// Open-addressing hash from a block's index to its slot; slots are 0, 1, 2, ... in order of
+/// insertion, so that the order of iteration depends on the input alone, not on the hash. A search
+/// looks at no more than kMaxProbes buckets beside the first.
+class BlockTable {
+ public:
+  static constexpr int32_t kNone = -1;
+
+  explicit BlockTable(uint64_t seed = hashSecret()) : seed_(seed), buckets_(kMinBuckets, kNone) {}
+
+  int32_t find(const VoxelIndex& block) const {
+    for (size_t b = firstBucket(block);; b = next(b)) {
+      const int32_t slot = buckets_[b];
+      if (slot == kNone || blocks_[static_cast<size_t>(slot)] == block) return slot;
+    }
+  }
+
+  int32_t findOrInsert(const VoxelIndex& block) {
+    size_t b = firstBucket(block);
+    size_t probes = 0;
+    for (; buckets_[b] != kNone; b = next(b), ++probes) {
+      if (blocks_[static_cast<size_t>(buckets_[b])] == block) return buckets_[b];
+    }
+    const auto slot = static_cast<int32_t>(blocks_.size());
+    buckets_[b] = slot;
+    blocks_.push_back(block);
+    const bool full = 2 * blocks_.size() > buckets_.size();
+    if (full || probes > kMaxProbes) rehash(full ? 2 * buckets_.size() : buckets_.size());
+    return slot;
+  }
+
+  size_t size() const { return blocks_.size(); }
+  const VoxelIndex& block(size_t slot) const { return blocks_[slot]; }
+  /// Buckets that a search for a known block looks at in vain.
+  size_t probes(const VoxelIndex& block) const {
+    size_t count = 0;
+    for (size_t b = firstBucket(block); blocks_[static_cast<size_t>(buckets_[b])] != block;
+         b = next(b)) {
+      ++count;
+    }
+    return count;
+  }
+
+  void clear() {
+    blocks_.clear();
+    buckets_.assign(buckets_.size(), kNone);
+  }
+
+  size_t bytes() const {
+    return buckets_.capacity() * sizeof(int32_t) + blocks_.capacity() * sizeof(VoxelIndex);
+  }
+
+ private:
+  static constexpr size_t kMinBuckets = 64;
+  // Half full, a table of a million random blocks has no search as long.
+  static constexpr size_t kMaxProbes = 128;
+
+  size_t firstBucket(const VoxelIndex& block) const {
+    return mixBits(packedIndex(block) ^ seed_) & (buckets_.size() - 1);
+  }
+  size_t next(size_t bucket) const { return (bucket + 1) & (buckets_.size() - 1); }
+
+  /// By another hash if this one needs too long searches.
+  void rehash(size_t bucket_count) {
+    while (!fill(bucket_count)) seed_ = mixBits(seed_ + 1);
+  }
+
+  bool fill(size_t bucket_count) {
+    buckets_.assign(bucket_count, kNone);
+    for (size_t slot = 0; slot < blocks_.size(); ++slot) {
+      size_t b = firstBucket(blocks_[slot]);
+      size_t probes = 0;
+      for (; buckets_[b] != kNone; b = next(b)) ++probes;
+      if (probes > kMaxProbes) return false;
+      buckets_[b] = static_cast<int32_t>(slot);
+    }
+    return true;
+  }
+
+  uint64_t seed_;                 // of the hash
+  std::vector<int32_t> buckets_;  // a power of two, at most half full
+  std::vector<VoxelIndex> blocks_;
+};
+
+/// Without an instruction that some processors lack.
+inline size_t bitCount(uint64_t bits) {
+  bits -= (bits >> 1) & 0x5555555555555555ULL;
+  bits = (bits & 0x3333333333333333ULL) + ((bits >> 2) & 0x3333333333333333ULL);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fULL;
+  return (bits * 0x0101010101010101ULL) >> 56;
+}
+
+/// The place of a voxel inside a block of kEdge voxels a side.
+template <int kEdge>
+struct BlockLayout {
+  static_assert(kEdge == 8 || kEdge == 16 || kEdge == 32, "a row of voxels is one word");
+  static constexpr int kShift = kEdge == 8 ? 3 : kEdge == 16 ? 4 : 5;
+  static constexpr int kRows = kEdge * kEdge;
+  static constexpr int kVoxels = kEdge * kEdge * kEdge;
+  using Row =
+      std::conditional_t<kEdge == 8, uint8_t, std::conditional_t<kEdge == 16, uint16_t, uint32_t>>;
+
+  static VoxelIndex block(const VoxelIndex& v) { return coarser(v, kShift); }
+  static int column(const VoxelIndex& v) { return v.x & (kEdge - 1); }
+  static int row(const VoxelIndex& v) { return (v.z & (kEdge - 1)) * kEdge + (v.y & (kEdge - 1)); }
+  static int cell(const VoxelIndex& v) { return row(v) * kEdge + column(v); }
+  static VoxelIndex voxel(const VoxelIndex& block, int row, int column) {
+    return {block.x * kEdge + column, block.y * kEdge + (row & (kEdge - 1)),
+            block.z * kEdge + (row >> kShift)};
+  }
+
+  using Bits = std::array<Row, kRows>;  ///< row z * kEdge + y, bit x
+  static bool test(const Bits& bits, const VoxelIndex& v) {
+    return (bits[static_cast<size_t>(row(v))] >> column(v)) & 1U;
+  }
+  static bool isEmpty(const Bits& bits) {
+    return std::all_of(bits.begin(), bits.end(), [](Row row) { return row == 0; });
+  }
+};
+
+/// A set of voxels. Cleared blocks keep their memory for the next use.
+template <int kEdge>
+class BitGrid {
+ public:
+  using Layout = BlockLayout<kEdge>;
+  using Row = typename Layout::Row;
+  using Block = typename Layout::Bits;
+
+  bool test(const VoxelIndex& v) const {
+    const int32_t slot = table_.find(Layout::block(v));
+    return slot != BlockTable::kNone && Layout::test(blocks_[static_cast<size_t>(slot)], v);
+  }
+
+  /// True if the voxel was not in the set.
+  bool set(const VoxelIndex& v) {
+    Row& row = blocks_[insertBlock(Layout::block(v))][Layout::row(v)];
+    const Row bit = bitOf(v);
+    const bool added = (row & bit) == 0;
+    row = static_cast<Row>(row | bit);
+    return added;
+  }
+
+  /// True if the voxel was in the set.
+  bool reset(const VoxelIndex& v) {
+    const int32_t slot = table_.find(Layout::block(v));
+    if (slot == BlockTable::kNone) return false;
+    Row& row = blocks_[static_cast<size_t>(slot)][Layout::row(v)];
+    const Row bit = bitOf(v);
+    const bool removed = (row & bit) != 0;
+    row = static_cast<Row>(row & ~bit);
+    return removed;
+  }
+
+  /// The slot of a block, made empty if it is new.
+  size_t insertBlock(const VoxelIndex& block) {
+    if (used_ != 0 && block == last_index_) return last_slot_;
+    last_index_ = block;
+    last_slot_ = static_cast<size_t>(table_.findOrInsert(block));
+    if (last_slot_ == used_) {
+      if (used_ == blocks_.size()) blocks_.emplace_back();
+      blocks_[used_++].fill(0);
+    }
+    return last_slot_;
+  }
+
+  /// Null when the block holds nothing.
+  const Block* findBlock(const VoxelIndex& block) const {
+    const int32_t slot = table_.find(block);
+    return slot == BlockTable::kNone ? nullptr : &blocks_[static_cast<size_t>(slot)];
+  }
+
+  size_t blockCount() const { return used_; }
+  const VoxelIndex& blockIndex(size_t slot) const { return table_.block(slot); }
+  const Block& block(size_t slot) const { return blocks_[slot]; }
+  Block& block(size_t slot) { return blocks_[slot]; }
+
+  size_t voxelCount() const {
+    size_t count = 0;
+    for (size_t slot = 0; slot < used_; ++slot) {
+      for (const Row row : blocks_[slot]) {
+        if (row != 0) count += static_cast<size_t>(__builtin_popcount(row));
+      }
+    }
+    return count;
+  }
+
+  /// Calls visit(VoxelIndex) in a fixed order.
+  template <typename Visit>
+  void forEach(Visit&& visit) const {
+    for (size_t slot = 0; slot < used_; ++slot) {
+      forEachInBlock(blockIndex(slot), blocks_[slot], visit);
+    }
+  }
+
+  template <typename Visit>
+  static void forEachInBlock(const VoxelIndex& index, const Block& block, Visit&& visit) {
+    for (int row = 0; row < Layout::kRows; ++row) {
+      for (uint32_t bits = block[static_cast<size_t>(row)]; bits != 0; bits &= bits - 1) {
+        visit(Layout::voxel(index, row, __builtin_ctz(bits)));
+      }
+    }
+  }
+
+  void clear() {
+    table_.clear();
+    used_ = 0;
+  }
+
+  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block); }
+
+ private:
+  static Row bitOf(const VoxelIndex& v) { return static_cast<Row>(1U << Layout::column(v)); }
+
+  BlockTable table_;
+  std::deque<Block> blocks_;  // the first used_ belong to the table's slots
+  size_t used_ = 0;
+  VoxelIndex last_index_;  // of the last insertBlock()
+  size_t last_slot_ = 0;
+};
+
+/// Tests voxels that lie near one another: the block of the last one is kept.
+template <int kEdge>
+class BitReader {
+ public:
+  /// `grid` must outlive this and stay as it is.
+  explicit BitReader(const BitGrid<kEdge>& grid) : grid_(grid) {}
+
+  bool test(const VoxelIndex& v) {
+    const VoxelIndex block = BitGrid<kEdge>::Layout::block(v);
+    if (!known_ || block != index_) block_ = grid_.findBlock(block);
+    known_ = true;
+    index_ = block;
+    return block_ != nullptr && BitGrid<kEdge>::Layout::test(*block_, v);
+  }
+
+ private:
+  const BitGrid<kEdge>& grid_;
+  const typename BitGrid<kEdge>::Block* block_ = nullptr;
+  VoxelIndex index_;
+  bool known_ = false;
+};
+
+/// From a voxel to a number given at its insertion: where its data are kept. A block holds the
+/// numbers of its voxels and no others, so that a voxel on its own is small.
+template <int kEdge>
+class SlotGrid {
+ public:
+  using Layout = BlockLayout<kEdge>;
+  static constexpr uint32_t kNone = 0xffffffff;
+
+  /// A bit a cell of a block.
+  class Bits {
+   public:
+    bool test(int cell) const { return (words_[wordOf(cell)] >> (cell & 63)) & 1U; }
+    void set(int cell) { words_[wordOf(cell)] |= uint64_t{1} << (cell & 63); }
+    void reset(int cell) { words_[wordOf(cell)] &= ~(uint64_t{1} << (cell & 63)); }
+    void flip(int cell) { words_[wordOf(cell)] ^= uint64_t{1} << (cell & 63); }
+    bool any() const {
+      return std::any_of(words_.begin(), words_.end(), [](uint64_t word) { return word != 0; });
+    }
+    /// Bits in the cell's word before the cell.
+    size_t countBefore(int cell) const {
+      return bitCount(words_[wordOf(cell)] & ((uint64_t{1} << (cell & 63)) - 1));
+    }
+
+    static constexpr size_t kWords = Layout::kVoxels / 64;
+    static size_t wordOf(int cell) { return static_cast<size_t>(cell >> 6); }
+
+   private:
+    std::array<uint64_t, kWords> words_{};
+  };
+
+  struct Block {
+    Bits occupied;
+    std::array<uint16_t, Bits::kWords> before{};  ///< occupied cells in the words before
+    std::vector<uint32_t> slots;                  ///< of the occupied cells, in their order
+
+    size_t rank(int cell) const { return before[Bits::wordOf(cell)] + occupied.countBefore(cell); }
+    uint32_t slotOf(int cell) const { return slots[rank(cell)]; }
+  };
+
+  /// The voxel's slot; a new voxel gets `next`.
+  uint32_t insert(const VoxelIndex& v, uint32_t next) {
+    Block& block = blockOf(Layout::block(v));
+    const int cell = Layout::cell(v);
+    const auto at = block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell));
+    if (block.occupied.test(cell)) return *at;
+    const size_t capacity = block.slots.capacity();
+    block.slots.insert(at, next);
+    slot_bytes_ += (block.slots.capacity() - capacity) * sizeof(uint32_t);
+    block.occupied.set(cell);
+    for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) ++block.before[w];
+    return next;
+  }
+
+  void erase(const VoxelIndex& v) {
+    const int32_t found = findBlock(Layout::block(v));
+    if (found == BlockTable::kNone) return;
+    Block& block = blocks_[static_cast<size_t>(found)];
+    const int cell = Layout::cell(v);
+    if (!block.occupied.test(cell)) return;
+    block.slots.erase(block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell)));
+    block.occupied.reset(cell);
+    for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) --block.before[w];
+  }
+
+  uint32_t find(const VoxelIndex& v) const {
+    const int32_t block = findBlock(Layout::block(v));
+    if (block == BlockTable::kNone) return kNone;
+    return slotIn(blocks_[static_cast<size_t>(block)], v);
+  }
+
+  static uint32_t slotIn(const Block& block, const VoxelIndex& v) {
+    const int cell = Layout::cell(v);
+    return block.occupied.test(cell) ? block.slotOf(cell) : kNone;
+  }
+
+  /// Calls visit(slot) for the voxels of a block in a fixed order.
+  template <typename Visit>
+  void forEachInBlock(size_t block, Visit&& visit) const {
+    for (const uint32_t slot : blocks_[block].slots) visit(slot);
+  }
+
+  /// BlockTable::kNone if there is none.
+  int32_t findBlock(const VoxelIndex& block) const { return table_.find(block); }
+  size_t blockCount() const { return table_.size(); }
+  const VoxelIndex& blockIndex(size_t block) const { return table_.block(block); }
+  const Block& block(size_t block) const { return blocks_[block]; }
+
+  void clear() { *this = {}; }
+
+  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block) + slot_bytes_; }
+
+ private:
+  static constexpr size_t kNoBlock = static_cast<size_t>(-1);
+
+  Block& blockOf(const VoxelIndex& block) {
+    if (last_ != kNoBlock && block == last_index_) return blocks_[last_];
+    last_ = static_cast<size_t>(table_.findOrInsert(block));
+    last_index_ = block;
+    if (last_ == blocks_.size()) blocks_.emplace_back();
+    return blocks_[last_];
+  }
+
+  BlockTable table_;
+  std::deque<Block> blocks_;
+  size_t slot_bytes_ = 0;
+  size_t last_ = kNoBlock;
+  VoxelIndex last_index_;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/config.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/grid/block_grid.hpp"
+#include "edgevox/grid/pool.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/lone_voxels.hpp"
+#include "edgevox/map/match_map.hpp"
+#include "edgevox/map/moment_level.hpp"
+
+namespace edgevox {
+
+/// Keeps a MatchMap up to date with scans: counts the hits of voxels, sums up their centroids,
+/// labels edges on the accumulated occupancy, and selects the voxels that scans are matched to.
+class MapBuilder {
+ public:
+  static constexpr int kSurfaceLevels = MatchMap::kSurfaceLevels;
+
+  /// `coarsest_voxel` [m] fixes the number of levels.
+  MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
+             const EdgeConfig& edges, int threads);
+
+  /// add(), then label() when it is due.
+  void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
+  /// Adds one scan's centroids, seen from `sensor`, in the map frame [m]; those out of the grid's
+  /// range are ignored and counted, those that stand alone wait for a second hit. Takes out the
+  /// voxels that `clear_after` scans have seen through.
+  void add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
+  /// Every `label_every` scans; never where only the map's output needs labels.
+  bool labelDue() const;
+  /// Labels what has changed since the last labelling. The labels are those that labelling the
+  /// whole map would give.
+  void label();
+  /// Makes the surfaces of all occupied voxels ready for matching, selected or not.
+  void prepareAll();
+  void clear();
+
+  const MatchMap& matchMap() const { return match_map_; }
+  int levels() const { return match_map_.levels(); }
+  double voxelSize(int level) const { return match_map_.voxelSize(level); }
+  bool empty() const { return scans_ == 0; }
+  uint32_t scans() const { return scans_; }
+
+  /// 1 <= level <= kSurfaceLevels
+  const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
+  /// Voxels of level 0 with at least `min_hits`.
+  const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
+  const BitGrid<16>& edgeVoxels() const { return match_map_.edgeVoxels(); }
+  /// Mean of the centroids that fell in a voxel of level 0; the voxel must have been hit.
+  Eigen::Vector3d centroid(const VoxelIndex& v) const;
+
+  size_t ignoredCentroids() const { return ignored_; }
+  /// Centroids left out because they stand alone and have not been confirmed.
+  size_t loneCentroids() const { return left_out_lone_; }
+  /// Centroids left out because the map is as large as `memory`.
+  size_t centroidsPastMemory() const { return left_out_full_; }
+  /// Whether it was when the last scan was added.
+  bool isFull() const { return full_; }
+  /// How often a voxel has left hitVoxels(), because later scans saw through it.
+  size_t clearedVoxels() const { return cleared_count_; }
+  /// What matching needs, packed: bits of all levels and 48 bytes a selected surface.
+  size_t packedBytes() const;
+  /// What is held while mapping.
+  size_t bytes() const;
+
+ private:
+  struct Hit {
+    std::array<float, 3> sum{};  // from the voxel's centre [m]
+    uint32_t count = 0;
+    uint32_t last_scan = 0;
+    uint32_t hits = 0;
+    uint32_t last_pass = 0;  // scan that last saw through it
+    uint32_t passes = 0;     // scans that did since the last hit
+  };
+  struct Sight;
+
+  /// Makes centroids_ and voxels_ of those in range.
+  void setPoints(const std::vector<Eigen::Vector3d>& centroids);
+  /// Leaves in centroids_ and voxels_ the points whose voxel passes the test, in their order.
+  template <typename Test>
+  void keepPoints(const Test& test);
+  void leaveOutLone();
+  void leaveOutNew();
+  bool isBesideEstablished(const VoxelIndex& parent) const;
+  void addPoints(const Eigen::Vector3d& sensor);
+  Eigen::Vector3d centroidOf(uint32_t slot, const VoxelIndex& v) const;
+  void addHits();
+  void addMoments(int level);
+  /// A voxel that has its min_hits.
+  void selectNew(int level, uint32_t slot);
+  void markOccupied(const VoxelIndex& v);
+  void clearSeenThrough(const Eigen::Vector3d& sensor);
+  void lookThrough(const Sight& sight, const VoxelIndex& parent);
+  bool isSeenThrough(const Sight& sight, uint32_t parent_slot, const Eigen::Vector3d& point) const;
+  bool isHit(const VoxelIndex& v) const { return hit_grid_.find(v) != SlotGrid<8>::kNone; }
+  bool isHitBeside(const VoxelIndex& v) const;
+  void remove(const VoxelIndex& v);
+  void subtractMoments(const VoxelIndex& v);
+  void sumChildren(int level, const VoxelIndex& v);
+  void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
+  /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
+  void countEdge(int level, const VoxelIndex& v, int change);
+  /// The block of this voxel is due for a choice of anchors.
+  void touch(int level, uint32_t slot);
+  void chooseAnchorsAnew();
+  void selectRandom();
+  MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
+  void select(int level, uint32_t slot, bool selected) {
+    momentLevel(level).select(slot, selected, match_map_.surfaces(level));
+  }
+
+  double voxel_size_;
+  double coarsest_voxel_;
+  MapConfig config_;
+  EdgeLabeller<16> labeller_;
+  int edge_neighbours_;  // see thinEdges()
+  uint32_t scans_ = 0;
+  size_t ignored_ = 0;
+  size_t cleared_count_ = 0;
+  size_t left_out_lone_ = 0;
+  size_t left_out_full_ = 0;
+  bool full_ = false;
+  RecentVoxels lone_voxels_;
+  ScanNeighbours neighbours_;  // of the scan being added
+  SlotGrid<8> hit_grid_;
+  Pool<Hit> hits_;
+  std::vector<uint32_t> free_hits_;  // slots of removed voxels
+  BitGrid<16> hit_voxels_;
+  BitGrid<16> edge_candidates_;  // labelled, not yet thinned
+  BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
+  std::vector<MomentLevel> moments_;
+  MatchMap match_map_;
+  std::array<std::vector<uint32_t>, kSurfaceLevels> touched_;  // slots by level - 1, repeated
+  std::array<double, kSurfaceLevels> random_share_{};          // of the voxels of a level
+  std::vector<Eigen::Vector3d> centroids_;                     // of the scan being added
+  std::vector<VoxelIndex> voxels_;                             // of the same, at level 0
+  std::vector<Eigen::Vector3f> to_sensor_;                     // of the same, unit vectors
+  std::vector<uint32_t> slots_;                                // of the same, at one level
+  std::vector<VoxelIndex> cleared_;                            // by the scan being added
+};
+
+/// Says that a map is as large as it may be, and what to do.
+std::string fullText(const MapConfig& config);
+
+template <typename Test>
+void MapBuilder::keepPoints(const Test& test) {
+  size_t kept = 0;
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    if (!test(voxels_[i])) continue;
+    voxels_[kept] = voxels_[i];
+    centroids_[kept++] = centroids_[i];
+  }
+  voxels_.resize(kept);
+  centroids_.resize(kept);
+}
+
+/// Centroids of the voxels of level 0, in the order of the voxels [m].
+std::vector<Eigen::Vector3f> centroidsOf(const MapBuilder& map, const BitGrid<16>& voxels);
+
+}  // namespace edgevox

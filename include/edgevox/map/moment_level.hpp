@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/grid/pool.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/surface_level.hpp"
+
+namespace edgevox {
+
+/// Sums over points about some origin.
+struct Moments {
+  double count = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< [m]
+  Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< [m^2]
+
+  /// `count` points at one place.
+  static Moments at(const Eigen::Vector3d& point, double count);
+  Moments& operator+=(const Moments& more);
+  /// Of the same points about another origin.
+  Moments about(const Eigen::Vector3d& origin) const;
+};
+
+/// The sums over centroids from which the surfaces of a level are computed, in the same slots.
+/// Which of them are `selected` depends on the representation of the map.
+class MomentLevel {
+ public:
+  struct Cell {
+    std::array<float, 3> sum{};    ///< of the centroids, from the voxel's centre [m]
+    std::array<float, 6> outer{};  ///< xx, yy, zz, xy, yz, zx of the same [m^2]
+    std::array<float, 3> view{};   ///< sum of the unit vectors to the sensor
+    uint32_t count = 0;            ///< centroids
+    uint32_t last_scan = 0;
+    uint16_t hits = 0;            ///< scans
+    uint8_t edge_children = 0;    ///< finer voxels that are or hold edges
+    int8_t flat_axis = kNotFlat;  ///< as of the last findFlatAxis()
+    bool anchor = false;          ///< see AnchorRule
+    bool stale = false;           ///< changed since its surface was computed
+    bool is_back = false;         ///< only sums, count and view are its own
+    bool selected = false;        ///< for matching; a back surface follows its voxel
+  };
+  static constexpr int8_t kNotFlat = -1;
+
+  explicit MomentLevel(double voxel_size) : voxel_size_(voxel_size) {}
+
+  /// The slot of a voxel, which is made if there is none.
+  uint32_t slotFor(const VoxelIndex& v, SurfaceLevel& surfaces);
+  /// Adds a centroid of scan `scan` (counted from 1), seen along the unit vector `to_sensor`; true
+  /// if it is the scan's first there.
+  bool add(uint32_t slot, const Eigen::Vector3d& centroid, const Eigen::Vector3f& to_sensor,
+           uint32_t scan, SurfaceLevel& surfaces);
+  /// Replaces the points of a voxel without a back surface, about its centre; from where they were
+  /// seen stays.
+  void setMoments(uint32_t slot, const Moments& moments);
+  /// Takes an occupied voxel out.
+  void erase(const VoxelIndex& v, SurfaceLevel& surfaces);
+  /// Computes the surfaces of the selected cells that have changed.
+  void updateSelected(SurfaceLevel& surfaces);
+  /// Those of all cells that have changed.
+  void updateAll(SurfaceLevel& surfaces);
+  void select(uint32_t slot, bool selected, SurfaceLevel& surfaces);
+  /// Sets Cell::flat_axis: the axis nearest to the normal if the voxel is flat.
+  void findFlatAxis(uint32_t slot);
+
+  Cell& cell(uint32_t slot) { return cells_[slot]; }
+  const Cell& cell(uint32_t slot) const { return cells_[slot]; }
+  const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
+  size_t size() const { return cells_.size(); }
+  /// Of the first side, about the voxel's centre.
+  Moments moments(uint32_t slot) const;
+  /// Unit normal of the first side, zero if that is not flat.
+  Eigen::Vector3d normal(uint32_t slot) const;
+  /// Of the selected voxels.
+  size_t selectedSurfaces() const;
+  size_t bytes() const { return cells_.bytes() + voxels_.bytes(); }
+
+ private:
+  void makeCell(uint32_t slot, const VoxelIndex& v);
+  uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor, SurfaceLevel& surfaces);
+  void setStale(uint32_t slot);
+  enum class Side { kKeep, kRefresh };
+  /// What a look at unselected voxels computes must not change where later centroids go: it keeps
+  /// the side.
+  void update(uint32_t slot, Side side, SurfaceLevel& surfaces);
+  void dropRepeats();
+
+  double voxel_size_;
+  Pool<Cell> cells_;
+  Pool<VoxelIndex> voxels_;
+  std::vector<uint32_t> stale_;             // slots stale since the last update of any kind
+  std::vector<uint32_t> stale_unselected_;  // before that; some are updated since, or repeated
+};
+
+/// Which voxels stand for a block of 8 voxels a side: of the flat ones `count` for each of three
+/// directions of the normal; where there are fewer than `count` in all, voxels that hold edges make
+/// up for them. Chosen by a hash of the voxel, so that a choice changes little when voxels come.
+struct AnchorRule {
+  int count = 0;
+  int min_hits = 1;
+};
+/// Sets Cell::anchor of the voxels of a block by their Cell::flat_axis, edge_children and hits.
+void chooseAnchors(MomentLevel& level, const SurfaceLevel& surfaces, size_t block,
+                   const AnchorRule& rule);
+
+}  // namespace edgevox

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/grid/block_grid.hpp"
+#include "edgevox/grid/pool.hpp"
+#include "edgevox/grid/voxel.hpp"
+
+namespace edgevox {
+
+/// Where the surface in a voxel lies and how well each direction is known: a Gaussian.
+struct Surface {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< [m]
+  /// xx, yy, zz, xy, yz, zx of C^-1 - lambda_min(C^-1) I [1/m^2]: none along the surface
+  std::array<float, 6> information{};
+  /// A surface is not seen from behind: only points whose unit vector to the sensor has a product
+  /// above -1 with `side` are of this one.
+  Eigen::Vector3f side = Eigen::Vector3f::Zero();
+  uint32_t back_surface = kNone;  ///< slot of the surface in the same voxel seen from behind
+
+  static constexpr uint32_t kNone = 0xffffffff;
+  bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
+};
+
+/// The surfaces in voxels of one size, found by voxel. Scans are matched to the `selected` ones or,
+/// as far as they are known, to all.
+class SurfaceLevel {
+ public:
+  static constexpr uint32_t kNone = Surface::kNone;
+
+  explicit SurfaceLevel(double voxel_size) : voxel_size_(voxel_size) {}
+
+  double voxelSize() const { return voxel_size_; }
+  VoxelIndex voxelOf(const Eigen::Vector3f& point) const {
+    return voxelAt(point, 1.0 / voxel_size_);
+  }
+
+  /// A voxel and its six neighbours, as far as they are selected or, for `all`, occupied.
+  struct Around {
+    VoxelIndex voxel;
+    uint32_t count = 0;
+    std::array<uint32_t, 7> slots{};
+  };
+  Around around(const VoxelIndex& voxel, bool all) const;
+
+  /// Of the surfaces in these voxels that face `to_sensor` (a unit vector) the one nearest to
+  /// `point` by its information. Its squared Mahalanobis distance goes to `distance`. Null if there
+  /// is none.
+  const Surface* nearest(const Around& around, const Eigen::Vector3f& point,
+                         const Eigen::Vector3f& to_sensor, float& distance) const;
+
+  /// The slot of the first surface of a voxel, kNone if there is none.
+  uint32_t slotOf(const VoxelIndex& v) const { return grid_.find(v); }
+  const Surface& surface(uint32_t slot) const { return surfaces_[slot]; }
+  bool hasBack(uint32_t slot) const { return surfaces_[slot].back_surface != kNone; }
+  /// All slots are below it; some may be free.
+  size_t slotCount() const { return surfaces_.size(); }
+  /// Voxels.
+  size_t selectedCount() const { return selected_count_; }
+  size_t blocksWithSelection() const;
+  size_t bytes() const;
+
+  /// The block of 8 voxels a side that holds a voxel.
+  size_t blockOf(const VoxelIndex& v) const {
+    return static_cast<size_t>(grid_.findBlock(Grid::Layout::block(v)));
+  }
+  /// Calls visit(slot) for the voxels of a block in a fixed order.
+  template <typename Visit>
+  void forEachInBlock(size_t block, Visit&& visit) const {
+    grid_.forEachInBlock(block, visit);
+  }
+
+  /// The slot of a voxel, which is made if there is none.
+  uint32_t insert(const VoxelIndex& v);
+  /// A new slot for the back of a voxel's surface.
+  uint32_t insertBack(uint32_t slot);
+  /// With its back; the slots are used again.
+  void erase(const VoxelIndex& v);
+  Surface& surface(uint32_t slot) { return surfaces_[slot]; }
+  /// Of a voxel that has a slot.
+  void setSelected(const VoxelIndex& v, bool selected);
+
+ private:
+  using Grid = SlotGrid<8>;
+
+  uint32_t nextSlot() const;
+  uint32_t takeSlot();
+
+  double voxel_size_;
+  Grid grid_;
+  std::deque<Grid::Bits> selected_;  // one a block of grid_
+  size_t selected_count_ = 0;
+  Pool<Surface> surfaces_;
+  std::vector<uint32_t> free_;  // erased slots
+};
+
+}  // namespace edgevox

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "edgevox/config.hpp"
+#include "edgevox/edges/recent_edges.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/map_builder.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/stage_timer.hpp"
+#include "edgevox/tracking/scan_result.hpp"
+#include "edgevox/tracking/tracker.hpp"
+
+namespace edgevox {
+
+/// Builds a map from scans in order of time: a Tracker finds where each was taken, a MapBuilder
+/// inserts it. A scan that cannot be located changes neither the map nor the pose.
+class Mapper {
+ public:
+  explicit Mapper(const Config& config, Clock clock = Clock::kProcessCpu);
+
+  ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
+
+  const MapBuilder& map() const { return map_; }
+  /// Of the last located scan.
+  const RecentEdges& recentEdges() const { return recent_edges_; }
+  /// Brings the labels up to date, for output.
+  void finishLabels() { map_.label(); }
+  /// Forgets map and motion; the next scan is the first.
+  void reset();
+
+ private:
+  ScanResult stale(const VoxelScan& scan, bool ahead) const;
+  void clockJumped();
+  void insert(const VoxelScan& scan, ScanResult& result);
+
+  AfterClockJump after_clock_jump_;
+  Clock clock_;
+  Tracker tracker_;
+  MapBuilder map_;
+  RecentEdges recent_edges_;
+};
+
+}  // namespace edgevox

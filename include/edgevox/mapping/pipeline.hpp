@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "edgevox/config.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/mapping/mapper.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/scan/voxelizer.hpp"
+#include "edgevox/stage_timer.hpp"
+
+namespace edgevox {
+
+/// One cloud through the whole pipeline.
+struct PipelineResult {
+  ScanResult scan;
+  size_t points = 0;
+  size_t scan_voxels = 0;
+  DroppedPoints dropped;
+  std::string too_large;  ///< see VoxelScan
+  EdgeCount edges;        ///< of the scan
+  double voxelize = 0.0;  ///< [s]
+  double extract = 0.0;   ///< [s]
+};
+
+/// Voxelizer, edge extractor and mapper in a row: the same three calls that the nodelets make.
+class Pipeline {
+ public:
+  /// Throws ConfigError if the configuration is not valid.
+  explicit Pipeline(const Config& config, Clock clock = Clock::kProcessCpu);
+
+  PipelineResult process(const CloudView& cloud, const ScanPrior& prior = {});
+
+  Mapper& mapper() { return mapper_; }
+  const MapBuilder& map() const { return mapper_.map(); }
+  /// Over all scans.
+  const SparseAlarm& sparseAlarm() const { return sparse_alarm_; }
+
+ private:
+  Clock clock_;
+  Voxelizer voxelizer_;
+  EdgeExtractor extractor_;
+  SparseAlarm sparse_alarm_;
+  Mapper mapper_;
+};
+
+}  // namespace edgevox

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "edgevox/config.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/match_map.hpp"
+
+namespace edgevox {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Centroids of a scan in the sensor's frame [m], in an order in which every prefix is spread
+/// over the scan: the search uses the first few of them, the refinement the first that have a
+/// voxel of the map beside them.
+using ScanSample = std::vector<Eigen::Vector3d>;
+
+struct MatchRequest {
+  Pose guess = Pose::Identity();  ///< T_map_sensor
+  double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
+  double far_hit_ratio = 1.0;     ///< the same for a match more than half of `farthest` away
+  double trusted_hit_ratio = 0;   ///< a refinement that reaches it from the guess needs no search
+  double reach = 1.0;             ///< widening of the restarts; 1 is 1 m and 25 degrees
+  double farthest = 4.0;          ///< of an accepted match from the guess [m]
+  double widest = 1.4;            ///< the same [rad]
+  bool all_voxels = false;        ///< refine against all occupied voxels
+  uint64_t seed = 0;              ///< of the restarts
+};
+
+struct MatchResult {
+  Pose T_map_sensor = Pose::Identity();
+  double hit_ratio = 0.0;  ///< see Matcher::hitRatio
+  int matches = 0;         ///< points with a Gaussian in the last refinement step
+  double fit = 0.0;        ///< mean robust weight of the refined points, 0 where there is no match
+  int restarts = 0;
+  uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
+  /// Of the last step, on (translation, rotation vector about the sensor), in the map's axes.
+  Matrix6 information = Matrix6::Zero();
+  /// hit_ratio >= required_hit_ratio, near enough to the guess, and in the grid's range
+  bool accepted = false;
+};
+
+/// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
+/// 2010), then robust Gauss-Newton from points to voxel Gaussians; verified by the hit ratio.
+/// Deterministic: integer scores, fixed tie-breaks, sums in a fixed order.
+class Matcher {
+ public:
+  explicit Matcher(const MatcherConfig& config) : config_(config) {}
+
+  /// How many points a sample should have, and how many of them are verified and, at most, refined.
+  size_t sampleSize() const;
+  size_t refinePoints(const ScanSample& sample) const;
+
+  /// From the guess alone, then from restarts around it until one is accepted or the work is too
+  /// much.
+  MatchResult match(const MatchMap& map, const ScanSample& sample,
+                    const MatchRequest& request) const;
+  /// From the guess alone.
+  MatchResult align(const MatchMap& map, const ScanSample& sample,
+                    const MatchRequest& request) const;
+
+  /// The discrete search alone, with the first `points` of the sample.
+  Pose search(const MatchMap& map, const ScanSample& sample, size_t points,
+              const Pose& guess) const {
+    uint64_t look_ups = 0;
+    return search(map, sample, points, guess, look_ups);
+  }
+  /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set. It ends
+  /// where the pose leaves the grid's range.
+  MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int coarsest,
+                     bool all_voxels) const;
+  /// Of the first `points` of a sample the fraction in occupied voxels of level 1, of those in
+  /// occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If less
+  /// than a quarter of them is known, of that quarter.
+  static double hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
+                         const Pose& T_map_sensor);
+
+ private:
+  Pose search(const MatchMap& map, const ScanSample& sample, size_t points, const Pose& guess,
+              uint64_t& look_ups) const;
+  MatchResult verified(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+                       MatchResult result) const;
+  void restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+               MatchResult& best) const;
+  Pose climbAsPublished(const MatchMap& map, const ScanSample& sample, const Pose& guess) const;
+
+  MatcherConfig config_;
+};
+
+/// Median distance of the first `count` > 0 points from the sensor [m].
+double medianRange(const ScanSample& sample, size_t count);
+
+/// Worst standard deviation of a match [m]: of the translation, or of the rotation at `range`.
+double worstSigma(const Matrix6& information, double range);
+
+}  // namespace edgevox

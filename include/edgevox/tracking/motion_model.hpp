@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/scan/motion.hpp"
+
+namespace edgevox {
+
+/// The sensor in the middle of a sweep.
+struct SweepPose {
+  double time = 0.0;  ///< [s]
+  Pose T_map_sensor = Pose::Identity();
+  std::optional<Pose> T_odom_sensor;
+};
+
+/// Where the sensor will be, by an odometry or at constant velocity, and how it moves in a sweep.
+class MotionModel {
+ public:
+  /// Whether a sweep has been added since the motion was forgotten.
+  bool known() const { return last_.has_value(); }
+  /// The last sweep; requires known().
+  const SweepPose& last() const { return *last_; }
+  /// At the stamp of the last sweep, also when the motion is not known any more.
+  const Pose& T_map_sensor() const { return T_map_sensor_; }
+  /// In the last sweep.
+  const Twist& twistInSweep() const { return twist_in_sweep_; }
+
+  /// T_map_sensor in the middle of the sweep at `now.time`; `moving`: as before, else it stands.
+  Pose predict(const SweepPose& now, bool moving) const;
+  /// In the sweep at `now.time`, for its deskewing, if it is predicted at `guess`.
+  Twist predictTwist(const SweepPose& now, const Pose& guess) const;
+  /// The same, if it is at `now.T_map_sensor`; requires known().
+  Twist twistInSweepAt(const SweepPose& now) const;
+
+  /// Adds a located sweep of a scan with this stamp [s].
+  void add(const SweepPose& now, double stamp);
+  /// The next sweep is the first; the pose stays.
+  void forget();
+
+ private:
+  Twist twistTo(const SweepPose& now, const Pose& T_map_sensor) const;
+  Twist twistInSweep(const Twist& twist) const;
+
+  Pose T_map_sensor_ = Pose::Identity();
+  std::optional<SweepPose> last_;
+  Twist twist_;           // from the last but one sweep to the last
+  Twist twist_in_sweep_;  // in the last one
+};
+
+}  // namespace edgevox

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/matching/matcher.hpp"
+
+namespace edgevox {
+
+enum class ScanStatus {
+  kFirst,     ///< the map was empty: the scan fixes the map frame
+  kTracked,   ///< aligned to the map's selected voxels
+  kFallback,  ///< aligned to all occupied voxels
+  kLost,      ///< no match was good enough; the map and the pose are as before
+  kStale,     ///< not later than the last located scan, or too much later; not used
+  kTooFew,    ///< too few occupied voxels; not used
+  kTooLarge,  ///< more points or voxels than allowed; not used
+};
+const char* name(ScanStatus status);
+
+struct MapperTimes {
+  double match = 0.0;   ///< sampling, prediction, search and refinement [s]
+  double insert = 0.0;  ///< [s]
+  double label = 0.0;   ///< [s]
+};
+
+/// What became of one scan.
+struct ScanResult {
+  ScanStatus status = ScanStatus::kLost;
+  uint64_t number = 0;
+  double stamp = 0.0;                    ///< [s]
+  Pose T_map_sensor = Pose::Identity();  ///< at the stamp; the last good one if not located()
+  /// Of (translation, rotation vector about the sensor), in the map's axes; m, rad.
+  Matrix6 covariance = Matrix6::Zero();
+  double hit_ratio = 0.0;
+  double required_hit_ratio = 0.0;
+  int matches = 0;
+  int restarts = 0;
+  bool ahead = false;         ///< stale, as later by MapperConfig::clock_leap and not confirmed
+  bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
+  MapperTimes times;
+
+  bool located() const {
+    return status == ScanStatus::kFirst || status == ScanStatus::kTracked ||
+           status == ScanStatus::kFallback;
+  }
+};
+
+/// What is known of a scan besides its voxels.
+struct ScanPrior {
+  /// At the stamp, in any smooth frame, for the prediction; without it the velocity is taken as
+  /// constant.
+  std::optional<Pose> T_odom_sensor;
+  /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame. Of a
+  /// place farther from the origin than half the grid's range (100 km at 20 cm) only the rotation
+  /// counts: the map's origin is at the sensor then.
+  Pose T_map_first = Pose::Identity();
+};
+
+}  // namespace edgevox

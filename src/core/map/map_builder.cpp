@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/map/map_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/grid/dilate.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
+constexpr size_t kSurfaceBytes = 48;
+constexpr size_t kMegabyte = 1000000;
+constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
+
+template <typename T>
+void sortUnique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Blocks of 8 voxels a side that hold a bit; a block of 16 counts as those of its eighths.
+size_t blocksOfEight(const BitGrid<16>& grid) {
+  size_t count = 0;
+  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
+    std::array<std::array<uint32_t, 2>, 4> any{};
+    for (size_t row = 0; row < grid.block(slot).size(); ++row) {
+      const uint32_t bits = grid.block(slot)[row];
+      auto& halves = any[(row >> 7) * 2 + ((row >> 3) & 1)];
+      halves[0] |= bits & 0xffU;
+      halves[1] |= bits >> 8;
+    }
+    for (const auto& halves : any) count += (halves[0] != 0) + (halves[1] != 0);
+  }
+  return count;
+}
+
+size_t blocksWithBits(const BitGrid<8>& grid) {
+  size_t count = 0;
+  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
+    count += BlockLayout<8>::isEmpty(grid.block(slot)) ? 0 : 1;
+  }
+  return count;
+}
+
+}  // namespace
+
+MapBuilder::MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
+                       const EdgeConfig& edges, int threads)
+    : voxel_size_(voxel_size),
+      coarsest_voxel_(coarsest_voxel),
+      config_(map),
+      labeller_(mapLabeller(edges, edges.map_support, threads)),
+      edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
+      lone_voxels_(map.confirm_within),
+      match_map_(voxel_size, coarsest_voxel) {
+  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
+}
+
+void MapBuilder::insert(const std::vector<Eigen::Vector3d>& centroids,
+                        const Eigen::Vector3d& sensor) {
+  add(centroids, sensor);
+  if (labelDue()) label();
+}
+
+void MapBuilder::add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor) {
+  ++scans_;
+  setPoints(centroids);
+  leaveOutLone();
+  full_ = bytes() >= static_cast<size_t>(config_.memory) * kMegabyte;
+  if (full_) leaveOutNew();
+  addPoints(sensor);
+}
+
+void MapBuilder::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
+  centroids_.clear();
+  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(centroids_),
+               [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); });
+  ignored_ += centroids.size() - centroids_.size();
+  const double inverse_size = 1.0 / voxel_size_;
+  voxels_.resize(centroids_.size());
+  std::transform(centroids_.begin(), centroids_.end(), voxels_.begin(),
+                 [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
+}
+
+/// One pass a level and a step: short loops over memory that do not wait for one another.
+void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
+  to_sensor_.resize(centroids_.size());
+  slots_.resize(centroids_.size());
+  std::transform(centroids_.begin(), centroids_.end(), to_sensor_.begin(),
+                 [&](const Eigen::Vector3d& c) -> Eigen::Vector3f {
+                   return (sensor - c).cast<float>().normalized();
+                 });
+  addHits();
+  for (int l = 1; l <= kSurfaceLevels; ++l) addMoments(l);
+  if (config_.clear_after > 0) clearSeenThrough(sensor);
+  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateSelected(match_map_.surfaces(l));
+}
+
+bool MapBuilder::labelDue() const {
+  return config_.representation != Representation::kAll &&
+         scans_ % static_cast<uint32_t>(config_.label_every) == 0;
+}
+
+void MapBuilder::addHits() {
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    const uint32_t next =
+        free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
+    slots_[i] = hit_grid_.insert(voxels_[i], next);
+    if (slots_[i] != next) continue;
+    free_hits_.empty() ? static_cast<void>(hits_.grow()) : free_hits_.pop_back();
+  }
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    Hit& hit = hits_[slots_[i]];
+    const Eigen::Vector3f d = (centroids_[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
+    for (size_t k = 0; k < 3; ++k) hit.sum[k] += d[static_cast<Eigen::Index>(k)];
+    ++hit.count;
+    if (hit.last_scan == scans_) continue;
+    hit.last_scan = scans_;
+    hit.passes = 0;
+    if (++hit.hits == static_cast<uint32_t>(config_.min_hits)) {
+      hit_voxels_.set(voxels_[i]);
+      changed_.set(voxels_[i]);
+    }
+  }
+}
+
+void MapBuilder::addMoments(int l) {
+  MomentLevel& level = momentLevel(l);
+  SurfaceLevel& surfaces = match_map_.surfaces(l);
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    const VoxelIndex v = coarser(voxels_[i], l);
+    slots_[i] = level.slotFor(v, surfaces);
+    if (l == 1 && level.cell(slots_[i]).hits == 0) markOccupied(v);
+  }
+  for (size_t i = 0; i < voxels_.size(); ++i) {
+    if (!level.add(slots_[i], centroids_[i], to_sensor_[i], scans_, surfaces)) continue;
+    touch(l, slots_[i]);
+    if (level.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
+  }
+}
+
+void MapBuilder::selectNew(int l, uint32_t slot) {
+  MomentLevel& level = momentLevel(l);
+  if (config_.representation == Representation::kAll) select(l, slot, true);
+  if (config_.representation == Representation::kEdges) {
+    level.cell(slot).anchor = lotOf(level.voxel(slot)) < kNewShare;
+    select(l, slot, level.cell(slot).anchor);
+  }
+  if (config_.representation == Representation::kRandom) {
+    select(l, slot, lotOf(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
+  }
+}
+
+void MapBuilder::markOccupied(const VoxelIndex& v) {
+  for (int l = 1; l < levels(); ++l) {
+    if (!match_map_.occupied(l).set(coarser(v, l - 1))) return;
+  }
+}
+
+void MapBuilder::countEdge(int l, const VoxelIndex& v, int change) {
+  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
+  auto& children = momentLevel(l).cell(slot).edge_children;
+  const bool held = children != 0;
+  children = static_cast<uint8_t>(children + change);
+  if (held == (children != 0)) return;
+  touch(l, slot);
+  if (l < kSurfaceLevels) countEdge(l + 1, coarser(v, 1), change);
+}
+
+void MapBuilder::touch(int l, uint32_t slot) {
+  if (config_.representation == Representation::kAll) return;
+  touched_[static_cast<size_t>(l - 1)].push_back(slot);
+}
+
+void MapBuilder::chooseAnchorsAnew() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    MomentLevel& level = momentLevel(l);
+    const SurfaceLevel& surfaces = match_map_.surfaces(l);
+    auto& slots = touched_[static_cast<size_t>(l - 1)];
+    sortUnique(slots);
+    std::vector<size_t> blocks(slots.size());
+    for (size_t i = 0; i < slots.size(); ++i) {
+      if (level.cell(slots[i]).hits >= config_.min_hits) level.findFlatAxis(slots[i]);
+      blocks[i] = surfaces.blockOf(level.voxel(slots[i]));
+    }
+    slots.clear();
+    sortUnique(blocks);
+    const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
+    for (const size_t block : blocks) {
+      chooseAnchors(level, surfaces, block, {count, config_.min_hits});
+      if (config_.representation != Representation::kEdges) continue;
+      surfaces.forEachInBlock(block,
+                              [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });
+    }
+  }
+}
+
+void MapBuilder::label() {
+  BitGrid<16> relabelled;
+  Dilation<16>(labeller_.reach(), hit_voxels_, relabelled).add(changed_);
+  changed_.clear();
+  labeller_.label(hit_voxels_, relabelled, edge_candidates_);
+  BitGrid<16> targets;
+  Dilation<16>(1, hit_voxels_, targets).add(relabelled);
+  BitGrid<16>& edges = match_map_.edgeVoxels();
+  std::vector<BitGrid<16>::Block> before(targets.blockCount());
+  for (size_t slot = 0; slot < before.size(); ++slot) {
+    const size_t edge_slot = edges.insertBlock(targets.blockIndex(slot));
+    before[slot] = edges.block(edge_slot);
+  }
+  thinEdges(edge_candidates_, targets, edge_neighbours_, edges);
+  changeEdges(targets, before);
+  chooseAnchorsAnew();
+  if (config_.representation == Representation::kRandom) selectRandom();
+}
+
+void MapBuilder::changeEdges(const BitGrid<16>& targets,
+                             const std::vector<BitGrid<16>::Block>& before) {
+  for (size_t slot = 0; slot < before.size(); ++slot) {
+    const VoxelIndex& block = targets.blockIndex(slot);
+    const auto& now = *edgeVoxels().findBlock(block);
+    BitGrid<16>::Block differs;
+    for (size_t row = 0; row < now.size(); ++row) {
+      differs[row] = static_cast<uint16_t>(now[row] ^ before[slot][row]);
+    }
+    BitGrid<16>::forEachInBlock(block, differs, [&](const VoxelIndex& v) {
+      countEdge(1, coarser(v, 1), edgeVoxels().test(v) ? 1 : -1);
+    });
+  }
+}
+
+void MapBuilder::selectRandom() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    const MomentLevel& level = moments(l);
+    size_t anchors = 0;
+    size_t candidates = 0;
+    for (uint32_t slot = 0; slot < level.size(); ++slot) {
+      if (level.cell(slot).is_back) continue;
+      anchors += level.cell(slot).anchor ? 1 : 0;
+      candidates += level.cell(slot).hits >= config_.min_hits ? 1 : 0;
+    }
+    double& share = random_share_[static_cast<size_t>(l - 1)];
+    share = static_cast<double>(anchors) / static_cast<double>(candidates);
+    for (uint32_t slot = 0; slot < level.size(); ++slot) {
+      const MomentLevel::Cell& cell = level.cell(slot);
+      if (cell.is_back) continue;
+      select(l, slot, cell.hits >= config_.min_hits && lotOf(level.voxel(slot)) < share);
+    }
+  }
+}
+
+void MapBuilder::prepareAll() {
+  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateAll(match_map_.surfaces(l));
+}
+
+void MapBuilder::clear() {
+  scans_ = 0;
+  ignored_ = 0;
+  cleared_count_ = 0;
+  left_out_lone_ = 0;
+  left_out_full_ = 0;
+  full_ = false;
+  lone_voxels_.clear();
+  neighbours_ = {};
+  hit_grid_ = {};
+  hits_ = {};
+  free_hits_ = {};
+  hit_voxels_ = {};
+  edge_candidates_ = {};
+  changed_ = {};
+  touched_ = {};
+  random_share_ = {};
+  match_map_ = MatchMap(voxel_size_, coarsest_voxel_);
+  moments_.clear();
+  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
+}
+
+Eigen::Vector3d MapBuilder::centroid(const VoxelIndex& v) const {
+  return centroidOf(hit_grid_.find(v), v);
+}
+
+Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const {
+  const Hit& hit = hits_[slot];
+  const Eigen::Vector3d sum(hit.sum[0], hit.sum[1], hit.sum[2]);
+  return voxelCentre(v, voxel_size_) + sum / static_cast<double>(hit.count);
+}
+
+size_t MapBuilder::packedBytes() const {
+  const bool all = config_.representation == Representation::kAll;
+  size_t bytes = blocksOfEight(all ? hit_voxels_ : edgeVoxels()) * kBitBlockBytes;
+  for (int l = 1; l < levels(); ++l) {
+    bytes += blocksWithBits(match_map_.occupied(l)) * kBitBlockBytes;
+  }
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    bytes += match_map_.surfaces(l).blocksWithSelection() * kBitBlockBytes +
+             moments(l).selectedSurfaces() * kSurfaceBytes;
+  }
+  return bytes;
+}
+
+size_t MapBuilder::bytes() const {
+  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
+                 edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
+                 lone_voxels_.bytes() + neighbours_.bytes();
+  for (const MomentLevel& level : moments_) bytes += level.bytes();
+  return bytes;
+}
+
+std::string fullText(const MapConfig& config) {
+  return "the map has reached map/memory, " + std::to_string(config.memory) +
+         " MB: new places are not added; choose a larger voxel_size or a smaller "
+         "voxelizer/max_range, or, with memory to spare, a larger map/memory";
+}
+
+std::vector<Eigen::Vector3f> centroidsOf(const MapBuilder& map, const BitGrid<16>& voxels) {
+  std::vector<VoxelIndex> indices;
+  voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
+  std::sort(indices.begin(), indices.end());
+  std::vector<Eigen::Vector3f> points(indices.size());
+  std::transform(indices.begin(), indices.end(), points.begin(), [&](const VoxelIndex& v) {
+    return Eigen::Vector3f(map.centroid(v).cast<float>());
+  });
+  return points;
+}
+
+}  // namespace edgevox

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/map/match_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgevox {
+namespace {
+
+int levelCount(double voxel_size, double coarsest_voxel) {
+  const int coarsest = static_cast<int>(std::lround(std::log2(coarsest_voxel / voxel_size)));
+  return std::max(coarsest, MatchMap::kSurfaceLevels) + 1;
+}
+
+}  // namespace
+
+MatchMap::MatchMap(double voxel_size, double coarsest_voxel)
+    : voxel_size_(voxel_size),
+      occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
+  for (int l = 1; l <= kSurfaceLevels; ++l) surfaces_.emplace_back(voxelSize(l));
+}
+
+size_t MatchMap::bytes() const {
+  size_t bytes = edge_voxels_.bytes();
+  for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
+  for (const SurfaceLevel& level : surfaces_) bytes += level.bytes();
+  return bytes;
+}
+
+}  // namespace edgevox

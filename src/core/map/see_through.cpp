@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Voxels that later scans see through leave the map.
+#include <algorithm>
+#include <cmath>
+
+#include "core/grid/line_of_sight.hpp"
+#include "edgevox/map/map_builder.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kLines = 8000;  // of sight a scan, in turn: bounds the time
+constexpr double kNear = 0.25;   // of a line from the centroid of a voxel it sees through [voxel]
+constexpr double kBehind = 1.0;  // of its end behind the surface [voxel]
+constexpr double kBehindRough = 2.0;  // the same where the surface is not flat
+constexpr int kChildren = 8;
+
+VoxelIndex child(const VoxelIndex& v, int i) {
+  return {2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
+}
+
+template <typename Test>
+bool anyChild(const VoxelIndex& v, const Test& test) {
+  for (int i = 0; i < kChildren; ++i) {
+    if (test(child(v, i))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct MapBuilder::Sight {
+  Eigen::Vector3d sensor;
+  Eigen::Vector3d end;
+  double length;
+  Eigen::Vector3d direction;
+
+  Sight(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+      : sensor(from), end(to), length((to - from).norm()), direction((to - from) / length) {}
+
+  /// Whether the line passes within `near` of `point` and ends `behind` or more behind it.
+  bool passes(const Eigen::Vector3d& point, double near, double behind) const {
+    const Eigen::Vector3d to_point = point - sensor;
+    const double along = to_point.dot(direction);
+    return along > 0 && length - along >= behind &&
+           to_point.squaredNorm() - along * along <= near * near;
+  }
+
+  /// Whether it crosses the plane and ends `behind` or more behind it.
+  bool crosses(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double behind) const {
+    const double before = normal.dot(sensor - point);
+    const double after = normal.dot(end - point);
+    return before * after < 0 && std::abs(after) >= behind;
+  }
+};
+
+void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
+  const double inverse_size = 1.0 / voxelSize(1);
+  const size_t stride = 1 + centroids_.size() / (kLines + 1);
+  cleared_.clear();
+  for (size_t i = scans_ % stride; i < centroids_.size(); i += stride) {
+    const Sight sight(sensor, centroids_[i]);
+    const double reach = sight.length - kBehind * voxel_size_;
+    if (!(reach > 0)) continue;
+    forEachOnLine(match_map_.occupied(1), sensor * inverse_size,
+                  (sensor + reach * sight.direction) * inverse_size,
+                  [&](const VoxelIndex& parent) { lookThrough(sight, parent); });
+  }
+  for (const VoxelIndex& v : cleared_) remove(v);
+}
+
+void MapBuilder::lookThrough(const Sight& sight, const VoxelIndex& parent) {
+  const uint32_t parent_slot = match_map_.surfaces(1).slotOf(parent);
+  if (moments(1).cell(parent_slot).last_scan == scans_)
+    return;  // then all its children are hit or beside
+  const auto block = static_cast<size_t>(hit_grid_.findBlock(coarser(parent, 2)));
+  for (int i = 0; i < kChildren; ++i) {
+    const VoxelIndex v = child(parent, i);
+    const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(block), v);
+    if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
+    if (!isSeenThrough(sight, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
+    Hit& hit = hits_[slot];
+    hit.last_pass = scans_;
+    if (++hit.passes == static_cast<uint32_t>(config_.clear_after)) cleared_.push_back(v);
+  }
+}
+
+/// Lines that graze a surface pass its voxels, too, and noise lifts points off it: neither ends
+/// far behind the surface.
+bool MapBuilder::isSeenThrough(const Sight& sight, uint32_t parent_slot,
+                               const Eigen::Vector3d& point) const {
+  if (!sight.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
+  const Eigen::Vector3d normal = moments(1).normal(parent_slot);
+  return normal.isZero() ? sight.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
+                         : sight.crosses(point, normal, kBehind * voxel_size_);
+}
+
+/// Whether this scan hit one of the 26 neighbours.
+bool MapBuilder::isHitBeside(const VoxelIndex& v) const {
+  for (int i = 0; i < 27; ++i) {
+    const uint32_t slot = hit_grid_.find({v.x + i % 3 - 1, v.y + i / 3 % 3 - 1, v.z + i / 9 - 1});
+    if (slot != SlotGrid<8>::kNone && hits_[slot].last_scan == scans_) return true;
+  }
+  return false;
+}
+
+void MapBuilder::remove(const VoxelIndex& v) {
+  if (hit_voxels_.reset(v)) {
+    changed_.set(v);
+    ++cleared_count_;
+  }
+  edge_candidates_.reset(v);
+  if (match_map_.edgeVoxels().reset(v)) countEdge(1, coarser(v, 1), -1);
+  for (int l = 1; l <= kSurfaceLevels; ++l) {
+    touch(l, match_map_.surfaces(l).slotOf(coarser(v, l)));
+  }
+  subtractMoments(v);
+  const uint32_t slot = hit_grid_.find(v);
+  hits_[slot] = {};
+  free_hits_.push_back(slot);
+  hit_grid_.erase(v);
+  VoxelIndex at = coarser(v, 1);
+  bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
+  for (int l = 1; !left; ++l) {
+    if (l <= kSurfaceLevels) momentLevel(l).erase(at, match_map_.surfaces(l));
+    BitGrid<8>& bits = match_map_.occupied(l);
+    bits.reset(at);
+    if (l + 1 == levels()) return;
+    at = coarser(at, 1);
+    left = anyChild(at, [&](const VoxelIndex& c) { return bits.test(c); });
+  }
+}
+
+/// Takes the points of a voxel out of the coarser ones, which get the sums over what is left: a
+/// difference of large sums would be mostly rounding. How the points of a voxel scatter is not
+/// kept; those left are taken for their share of what scatters within all voxels of the coarser
+/// one. Voxels with two sides stay as they are: of which the points were is not known.
+void MapBuilder::subtractMoments(const VoxelIndex& v) {
+  const VoxelIndex parent = coarser(v, 1);
+  const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
+  const uint32_t slot = match_map_.surfaces(1).slotOf(parent);
+  if (match_map_.surfaces(1).hasBack(slot)) return;
+  Moments all;
+  Moments left;
+  for (int i = 0; i < kChildren; ++i) {
+    const VoxelIndex c = child(parent, i);
+    if (!isHit(c)) continue;
+    const Moments of_child = Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
+    all += of_child;
+    if (c != v) left += of_child;
+  }
+  left.outer += left.count / all.count * (moments(1).moments(slot).outer - all.outer);
+  momentLevel(1).setMoments(slot, left);
+  for (int l = 2; l <= kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
+}
+
+void MapBuilder::sumChildren(int l, const VoxelIndex& v) {
+  const SurfaceLevel& finer = match_map_.surfaces(l - 1);
+  const Eigen::Vector3d origin = voxelCentre(v, voxelSize(l));
+  Moments sum;
+  for (int i = 0; i < kChildren; ++i) {
+    const VoxelIndex c = child(v, i);
+    const uint32_t slot = finer.slotOf(c);
+    if (slot == SlotGrid<8>::kNone) continue;
+    if (finer.hasBack(slot)) return;
+    sum += moments(l - 1).moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
+  }
+  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
+  if (!match_map_.surfaces(l).hasBack(slot)) momentLevel(l).setMoments(slot, sum);
+}
+
+}  // namespace edgevox

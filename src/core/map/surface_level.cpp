@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/map/surface_level.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace edgevox {
+namespace {
+
+float squaredDistance(const Surface& surface, const Eigen::Vector3f& point) {
+  const Eigen::Vector3f e = point - surface.mean;
+  const auto& w = surface.information;
+  return e.x() * (w[0] * e.x() + 2 * (w[3] * e.y() + w[5] * e.z())) +
+         e.y() * (w[1] * e.y() + 2 * w[4] * e.z()) + e.z() * w[2] * e.z();
+}
+
+}  // namespace
+
+SurfaceLevel::Around SurfaceLevel::around(const VoxelIndex& voxel, bool all) const {
+  static constexpr int kOffsets[7][3] = {{0, 0, 0},  {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
+                                         {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  Around around;
+  around.voxel = voxel;
+  const VoxelIndex home = Grid::Layout::block(voxel);
+  const int32_t home_block = grid_.findBlock(home);
+  for (const auto& offset : kOffsets) {
+    const VoxelIndex v{voxel.x + offset[0], voxel.y + offset[1], voxel.z + offset[2]};
+    const VoxelIndex its_block = Grid::Layout::block(v);
+    const int32_t found = its_block == home ? home_block : grid_.findBlock(its_block);
+    if (found == BlockTable::kNone) continue;
+    const auto block = static_cast<size_t>(found);
+    const auto& bits = all ? grid_.block(block).occupied : selected_[block];
+    const int cell = Grid::Layout::cell(v);
+    if (bits.test(cell)) around.slots[around.count++] = grid_.block(block).slotOf(cell);
+  }
+  return around;
+}
+
+const Surface* SurfaceLevel::nearest(const Around& around, const Eigen::Vector3f& point,
+                                     const Eigen::Vector3f& to_sensor, float& distance) const {
+  const Surface* best = nullptr;
+  distance = std::numeric_limits<float>::infinity();
+  for (uint32_t i = 0; i < around.count; ++i) {
+    const Surface* candidate = &surfaces_[around.slots[i]];
+    if (candidate->facesAway(to_sensor)) {
+      if (candidate->back_surface == kNone) continue;
+      candidate = &surfaces_[candidate->back_surface];
+    }
+    const float d = squaredDistance(*candidate, point);
+    if (d < distance) {
+      distance = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+uint32_t SurfaceLevel::nextSlot() const {
+  return free_.empty() ? static_cast<uint32_t>(surfaces_.size()) : free_.back();
+}
+
+uint32_t SurfaceLevel::takeSlot() {
+  const uint32_t slot = nextSlot();
+  free_.empty() ? static_cast<void>(surfaces_.grow()) : free_.pop_back();
+  return slot;
+}
+
+uint32_t SurfaceLevel::insert(const VoxelIndex& v) {
+  const uint32_t slot = grid_.insert(v, nextSlot());
+  if (slot == nextSlot()) takeSlot();
+  while (selected_.size() < grid_.blockCount()) selected_.emplace_back();
+  return slot;
+}
+
+uint32_t SurfaceLevel::insertBack(uint32_t slot) {
+  const uint32_t back = takeSlot();
+  surfaces_[slot].back_surface = back;
+  return back;
+}
+
+void SurfaceLevel::erase(const VoxelIndex& v) {
+  setSelected(v, false);
+  for (uint32_t slot = slotOf(v); slot != kNone;) {
+    const uint32_t next = surfaces_[slot].back_surface;
+    surfaces_[slot] = {};
+    free_.push_back(slot);
+    slot = next;
+  }
+  grid_.erase(v);
+}
+
+void SurfaceLevel::setSelected(const VoxelIndex& v, bool selected) {
+  Grid::Bits& bits = selected_[blockOf(v)];
+  const int cell = Grid::Layout::cell(v);
+  if (bits.test(cell) == selected) return;
+  bits.flip(cell);
+  selected ? ++selected_count_ : --selected_count_;
+}
+
+size_t SurfaceLevel::blocksWithSelection() const {
+  return static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(),
+                                           [](const Grid::Bits& bits) { return bits.any(); }));
+}
+
+size_t SurfaceLevel::bytes() const {
+  return grid_.bytes() + selected_.size() * sizeof(Grid::Bits) + surfaces_.bytes();
+}
+
+}  // namespace edgevox

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/mapping/mapper.hpp"
+
+#include <utility>
+
+namespace edgevox {
+
+Mapper::Mapper(const Config& config, Clock clock)
+    : after_clock_jump_(config.mapper.after_clock_jump),
+      clock_(clock),
+      tracker_(config),
+      map_(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges,
+           config.threads),
+      recent_edges_(config.voxel_size, config.edges, config.mapper.edge_window, config.threads) {}
+
+ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
+  StageTimer timer(clock_);
+  const ClockWatch::Order order = tracker_.checkStamp(scan.stamp);
+  if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
+    return stale(scan, order == ClockWatch::Order::kAhead);
+  }
+  const bool clock_jumped = order == ClockWatch::Order::kJumpedBack;
+  if (clock_jumped) clockJumped();
+  ScanResult result = tracker_.track(
+      scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
+  result.clock_jumped = clock_jumped;
+  result.times.match = timer.lap();
+  if (result.located()) insert(scan, result);
+  return result;
+}
+
+ScanResult Mapper::stale(const VoxelScan& scan, bool ahead) const {
+  ScanResult result;
+  result.status = ScanStatus::kStale;
+  result.number = scan.number;
+  result.stamp = scan.stamp;
+  result.T_map_sensor = tracker_.T_map_sensor();
+  result.ahead = ahead;
+  return result;
+}
+
+void Mapper::clockJumped() {
+  if (after_clock_jump_ == AfterClockJump::kClearMap) {
+    reset();
+  } else {
+    recent_edges_.clear();
+  }
+}
+
+void Mapper::insert(const VoxelScan& scan, ScanResult& result) {
+  StageTimer timer(clock_);
+  std::vector<Eigen::Vector3d> centroids = tracker_.placed(scan);
+  map_.add(centroids, tracker_.sensor());
+  recent_edges_.add(std::move(centroids));
+  result.times.insert = timer.lap();
+  if (map_.labelDue()) map_.label();
+  result.times.label = timer.lap();
+}
+
+void Mapper::reset() {
+  map_.clear();
+  recent_edges_.clear();
+  tracker_.reset();
+}
+
+}  // namespace edgevox

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/mapping/pipeline.hpp"
+
+namespace edgevox {
+namespace {
+
+const Config& checked(const Config& config) {
+  validate(config);
+  return config;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(const Config& config, Clock clock)
+    : clock_(clock),
+      voxelizer_(checked(config).voxelizer, config.voxel_size),
+      extractor_(config.edges, config.threads),
+      sparse_alarm_(config.edges, config.threads, SparseAlarm::kEveryScan),
+      mapper_(config, clock) {}
+
+PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior) {
+  StageTimer timer(clock_);
+  PipelineResult result;
+  VoxelScan scan = voxelizer_.voxelize(cloud);
+  result.voxelize = timer.lap();
+  result.edges = extractor_.extract(scan);
+  sparse_alarm_.add(scan, result.edges);
+  result.extract = timer.lap();
+  result.scan = mapper_.process(scan, prior);
+  result.points = scan.points_read;
+  result.scan_voxels = scan.voxels.size();
+  result.dropped = scan.dropped;
+  result.too_large = scan.too_large;
+  return result;
+}
+
+}  // namespace edgevox

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/matching/matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "edgevox/scan/motion.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr int kCandidates = 4;            // for each point refined: most have no anchor beside them
+constexpr double kRestartDistance = 1.0;  // [m]
+constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
+constexpr uint64_t kMostLookUps = 12000000;  // of a match; four times what a found one needed
+constexpr double kTrustedStep = 1.0;         // of a refinement alone [voxel of level 1]
+constexpr double kNearStep = 0.25;           // after which other points may be near [voxel]
+constexpr double kLeastKnown = 0.25;         // of a sample
+constexpr int kKnownLevel = 3;
+constexpr int kFinestSearchLevel = 2;
+constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
+constexpr double kLargestMove = 10.0;        // of one step [m, rad]
+constexpr double kConvergedDistance = 5e-4;  // [m]
+constexpr double kConvergedAngle = 5e-5;     // [rad]
+constexpr float kRobustScale = 9.0F;         // squared Mahalanobis distance
+
+/// A move of the discrete search: translation in the map's axes, rotation about the sensor.
+using Move = Eigen::Matrix<double, 6, 1>;
+
+Pose apply(const Pose& pose, const Move& move) {
+  Pose out = pose;
+  out.translation() += move.head<3>();
+  out.linear() = rotationOf(move.tail<3>()) * pose.linear();
+  return out;
+}
+
+size_t prefix(const ScanSample& sample, size_t count) { return std::min(sample.size(), count); }
+
+/// Number of the first `count` points that land in occupied voxels of a level.
+int score(const MatchMap& map, int level, const ScanSample& sample, size_t count,
+          const Pose& pose) {
+  const BitGrid<8>& occupied = map.occupied(level);
+  const double inverse_size = 1.0 / map.voxelSize(level);
+  const Eigen::Matrix3d rotation = pose.linear() * inverse_size;
+  const Eigen::Vector3d translation = pose.translation() * inverse_size;
+  int hits = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d p = rotation * sample[i] + translation;
+    hits += occupied.test(voxelAt(p, 1.0)) ? 1 : 0;
+  }
+  return hits;
+}
+
+/// Whether the points of a sample, seen from a pose in the grid's range, have indices of voxels.
+bool isInGridRange(const MatchMap& map, const ScanSample& sample) {
+  return std::all_of(sample.begin(), sample.end(), [&](const Eigen::Vector3d& point) {
+    return inGridRange(point, map.voxelSize(0));
+  });
+}
+
+/// Steepest ascent over `moves` until none gains; ties go to the earlier move.
+template <typename Score>
+Pose climb(const std::vector<Move>& moves, Pose pose, int& best, const Score& scoreOf) {
+  for (;;) {
+    const Move* chosen = nullptr;
+    for (const Move& move : moves) {
+      const int s = scoreOf(apply(pose, move));
+      if (s <= best) continue;
+      best = s;
+      chosen = &move;
+    }
+    if (chosen == nullptr) return pose;
+    pose = apply(pose, *chosen);
+  }
+}
+
+std::vector<Move> axisMoves(double step, double angle) {
+  std::vector<Move> moves;
+  for (int axis = 0; axis < 6; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Move move = Move::Zero();
+      move[axis] = sign * (axis < 3 ? step : angle);
+      moves.push_back(move);
+    }
+  }
+  return moves;
+}
+
+/// One translation and one rotation at once.
+std::vector<Move> coupledMoves(double step, double angle) {
+  std::vector<Move> moves;
+  for (int t = 0; t < 3; ++t) {
+    for (int r = 3; r < 6; ++r) {
+      for (const double st : {1.0, -1.0}) {
+        for (const double sr : {1.0, -1.0}) {
+          Move move = Move::Zero();
+          move[t] = st * step;
+          move[r] = sr * angle;
+          moves.push_back(move);
+        }
+      }
+    }
+  }
+  return moves;
+}
+
+/// Normal equations of one Gauss-Newton step.
+struct NormalEquations {
+  Matrix6 h = Matrix6::Zero();
+  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
+  int matches = 0;
+  double weight = 0.0;
+
+  /// Residual e of a point `lever` from the sensor; J = [I, -[lever]x].
+  void add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e, const Eigen::Vector3d& lever) {
+    Eigen::Matrix3d cross;
+    cross << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0;
+    const Eigen::Matrix3d wc = w * cross;
+    const Eigen::Vector3d we = w * e;
+    h.topLeftCorner<3, 3>() += w;
+    h.topRightCorner<3, 3>() -= wc;
+    h.bottomRightCorner<3, 3>() -= cross * wc;
+    b.head<3>() += we;
+    b.tail<3>() += lever.cross(we);
+    ++matches;
+  }
+
+  void finish() { h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose(); }
+};
+
+/// How far a change of pose moves the sensor, or a point at `range` around it.
+double largestStep(const Pose& from, const Pose& to, double range) {
+  const Pose change = from.inverse() * to;
+  return std::max(change.translation().norm(), rotationAngle(change) * range);
+}
+
+/// A point of a sample and the voxels that it is matched to.
+struct NearPoint {
+  Eigen::Vector3d point;
+  SurfaceLevel::Around around;
+};
+
+/// The first `wanted` points of the sample that have a voxel to match at this pose.
+std::vector<NearPoint> pointsNear(const SurfaceLevel& level, const ScanSample& sample,
+                                  size_t wanted, const Pose& pose, bool all_voxels,
+                                  uint64_t& look_ups) {
+  std::vector<NearPoint> near;
+  near.reserve(wanted);
+  for (const Eigen::Vector3d& point : sample) {
+    if (near.size() == wanted) break;
+    ++look_ups;
+    const Eigen::Vector3f in_map = (pose * point).cast<float>();
+    const auto around = level.around(level.voxelOf(in_map), all_voxels);
+    if (around.count > 0) near.push_back({point, around});
+  }
+  return near;
+}
+
+/// Points that have moved to another voxel are given what is around that.
+NormalEquations linearise(const SurfaceLevel& level, std::vector<NearPoint>& near, const Pose& pose,
+                          bool all_voxels) {
+  NormalEquations equations;
+  for (NearPoint& of_scan : near) {
+    const Eigen::Vector3d lever = pose.linear() * of_scan.point;
+    const Eigen::Vector3d point = pose.translation() + lever;
+    const Eigen::Vector3f point_f = point.cast<float>();
+    const VoxelIndex voxel = level.voxelOf(point_f);
+    if (voxel != of_scan.around.voxel) of_scan.around = level.around(voxel, all_voxels);
+    float distance = 0;
+    const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
+    const Surface* g = level.nearest(of_scan.around, point_f, to_sensor, distance);
+    if (g == nullptr) continue;
+    const double robust = kRobustScale / (kRobustScale + distance);
+    const auto& m = g->information;
+    Eigen::Matrix3d w;
+    w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
+    equations.weight += robust * robust;
+    equations.add(w * (robust * robust), point - g->mean.cast<double>(), lever);
+  }
+  equations.finish();
+  return equations;
+}
+
+/// Uniform in [-1, 1), the same on every machine.
+double signedUniform(uint64_t& state) {
+  state += 0x9e3779b97f4a7c15ULL;
+  return std::ldexp(static_cast<double>(mixBits(state) >> 11), -52) - 1.0;
+}
+
+Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
+  Move move;
+  for (int i = 0; i < 6; ++i) {
+    move[i] = scale * signedUniform(state) * (i < 3 ? kRestartDistance : kRestartAngle);
+  }
+  return apply(guess, move);
+}
+
+}  // namespace
+
+double medianRange(const ScanSample& sample, size_t count) {
+  std::vector<double> ranges(count);
+  for (size_t i = 0; i < count; ++i) ranges[i] = sample[i].norm();
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+size_t Matcher::sampleSize() const {
+  return static_cast<size_t>(std::max(config_.search_points, kCandidates * config_.refine_points));
+}
+
+size_t Matcher::refinePoints(const ScanSample& sample) const {
+  return prefix(sample, static_cast<size_t>(config_.refine_points));
+}
+
+MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
+                           const MatchRequest& request) const {
+  MatchResult result = align(map, sample, request);
+  const bool possible = inGridRange(request.guess, map.voxelSize(0)) && isInGridRange(map, sample);
+  if (!result.accepted && possible) restart(map, sample, request, result);
+  return result;
+}
+
+/// The refinement alone where the guess was good, else the better fit of that and the search.
+MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
+                           const MatchRequest& request) const {
+  MatchResult result;
+  result.T_map_sensor = request.guess;
+  if (!inGridRange(request.guess, map.voxelSize(0)) || !isInGridRange(map, sample)) return result;
+  if (config_.mode == MatcherMode::kPublished) {
+    result.T_map_sensor = climbAsPublished(map, sample, request.guess);
+    return verified(map, sample, request, result);
+  }
+  const auto refineFrom = [&](const Pose& start) {
+    return verified(map, sample, request,
+                    refine(map, sample, start, MatchMap::kSurfaceLevels, request.all_voxels));
+  };
+  result = refineFrom(request.guess);
+  const double step =
+      largestStep(request.guess, result.T_map_sensor, medianRange(sample, refinePoints(sample)));
+  if (result.accepted && result.hit_ratio >= request.trusted_hit_ratio &&
+      step < kTrustedStep * map.voxelSize(1)) {
+    return result;
+  }
+  const auto points = static_cast<size_t>(config_.search_points);
+  uint64_t look_ups = result.look_ups;
+  MatchResult searched = refineFrom(search(map, sample, points, request.guess, look_ups));
+  result.look_ups = searched.look_ups += look_ups;
+  if (!searched.accepted && result.accepted) return result;
+  if (searched.accepted && !result.accepted) return searched;
+  return searched.fit > result.fit ? searched : result;
+}
+
+MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
+                              const MatchRequest& request, MatchResult result) const {
+  if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
+  const Pose moved = request.guess.inverse() * result.T_map_sensor;
+  const double distance = std::max(moved.translation().norm() / request.farthest,
+                                   rotationAngle(moved) / request.widest);
+  const double required = distance > 0.5 ? request.far_hit_ratio : request.required_hit_ratio;
+  result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
+  result.accepted = distance <= 1.0 && result.hit_ratio >= required;
+  return result;
+}
+
+void Matcher::restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+                      MatchResult& best) const {
+  const auto points = static_cast<size_t>(config_.restart_points);
+  const size_t count = prefix(sample, points);
+  const auto coarseScore = [&](const Pose& pose) {
+    return score(map, kFinestSearchLevel, sample, count, pose);
+  };
+  const auto all_points = static_cast<size_t>(config_.search_points);
+  uint64_t state = mixBits(request.seed + 1);
+  uint64_t look_ups = best.look_ups;
+  int best_score = coarseScore(best.T_map_sensor);
+  for (int i = 1; i <= config_.max_restarts && !best.accepted && look_ups < kMostLookUps; ++i) {
+    const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
+    const Pose start = disturbed(request.guess, request.reach * growth, state);
+    const Pose found = search(map, sample, points, start, look_ups);
+    best.restarts = i;
+    if (coarseScore(found) <= best_score) continue;
+    MatchResult candidate =
+        verified(map, sample, request,
+                 refine(map, sample, search(map, sample, all_points, found, look_ups),
+                        MatchMap::kSurfaceLevels, request.all_voxels));
+    look_ups += candidate.look_ups;
+    candidate.restarts = i;
+    if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
+    best = candidate;
+    best_score = coarseScore(best.T_map_sensor);
+  }
+  best.look_ups = look_ups;
+}
+
+Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t points,
+                     const Pose& guess, uint64_t& look_ups) const {
+  const size_t count = prefix(sample, points);
+  if (count == 0) return guess;
+  const double range = std::max(medianRange(sample, count), map.voxelSize(1));
+  Pose pose = guess;
+  for (int level = map.levels() - 1; level >= kFinestSearchLevel; --level) {
+    const auto scoreOf = [&](const Pose& p) {
+      look_ups += count;
+      return score(map, level, sample, count, p);
+    };
+    const double size = map.voxelSize(level);
+    int best = scoreOf(pose);
+    for (const double step : {size, size / 2}) {
+      pose = climb(axisMoves(step, step / range), pose, best, scoreOf);
+    }
+  }
+  return pose;
+}
+
+MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample, const Pose& guess,
+                            int coarsest, bool all_voxels) const {
+  MatchResult result;
+  Pose& pose = result.T_map_sensor;
+  pose = guess;
+  const size_t wanted = refinePoints(sample);
+  if (wanted == 0) return result;
+  const double range = medianRange(sample, wanted);
+  for (int level = coarsest; level >= 1; --level) {
+    std::vector<NearPoint> near;
+    Pose near_pose;
+    for (int step = 0; step < kRefineSteps[level]; ++step) {
+      if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {
+        near = pointsNear(map.surfaces(level), sample, wanted, pose, all_voxels, result.look_ups);
+        near_pose = pose;
+      }
+      const auto equations = linearise(map.surfaces(level), near, pose, all_voxels);
+      result.look_ups += near.size();
+      result.matches = equations.matches;
+      result.information = equations.h;
+      result.fit = equations.weight / static_cast<double>(wanted);
+      if (equations.matches < 6) break;
+      const Move move = -equations.h.ldlt().solve(equations.b);
+      if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
+      pose = apply(pose, move);
+      if (!inGridRange(pose, map.voxelSize(0))) return result;
+      if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
+        break;
+      }
+    }
+  }
+  renormalise(pose);
+  return result;
+}
+
+/// Levels coarse to fine, one voxel and 0.5 degree * 2^level a step; a last pass at a quarter
+/// voxel and 0.125 degree.
+Pose Matcher::climbAsPublished(const MatchMap& map, const ScanSample& sample,
+                               const Pose& guess) const {
+  const size_t count = prefix(sample, static_cast<size_t>(config_.search_points));
+  const double half_degree = 0.5 * M_PI / 180.0;
+  Pose pose = guess;
+  const auto pass = [&](int level, double step, double angle) {
+    auto moves = axisMoves(step, angle);
+    const auto coupled = coupledMoves(step, angle);
+    moves.insert(moves.end(), coupled.begin(), coupled.end());
+    const auto scoreOf = [&](const Pose& p) { return score(map, level, sample, count, p); };
+    int best = scoreOf(pose);
+    pose = climb(moves, pose, best, scoreOf);
+  };
+  const int coarsest = std::min(map.levels() - 1, 5);
+  for (int level = coarsest; level >= 1; --level) {
+    pass(level, map.voxelSize(level), half_degree * (1 << (level - 1)));
+  }
+  pass(1, map.voxelSize(1) / 4, half_degree / 4);
+  renormalise(pose);
+  return pose;
+}
+
+double Matcher::hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
+                         const Pose& T_map_sensor) {
+  const size_t count = prefix(sample, points);
+  if (count == 0) return 0.0;
+  const int known_level = std::min(kKnownLevel, map.levels() - 1);
+  const int hits = score(map, 1, sample, count, T_map_sensor);
+  const int known = score(map, known_level, sample, count, T_map_sensor);
+  const double least = kLeastKnown * static_cast<double>(count);
+  return static_cast<double>(hits) / std::max(static_cast<double>(known), least);
+}
+
+double worstSigma(const Matrix6& information, double range) {
+  Matrix6 scaled = information;  // on (translation, rotation * range)
+  scaled.topRightCorner<3, 3>() /= range;
+  scaled.bottomLeftCorner<3, 3>() /= range;
+  scaled.bottomRightCorner<3, 3>() /= range * range;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues()[0];
+  return least > 0 ? 1.0 / std::sqrt(least) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace edgevox

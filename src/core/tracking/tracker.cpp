@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edgevox/tracking/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/scan/scan_sample.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr size_t kFewestVoxels = 50;
+constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
+constexpr double kLongestReach = 4.0;
+constexpr double kFarthest = 2.0;                      // a match from its prediction [m]
+constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
+constexpr double kWidest = 60.0 * M_PI / 180.0;        // [rad]
+constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
+constexpr double kLeastInterval = 1e-3;                // of two sweeps' middles [s]
+
+ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
+                    const Deskew& deskew) {
+  ScanSample sample(positions.size());
+  for (size_t i = 0; i < sample.size(); ++i) sample[i] = deskew(scan.voxels[positions[i]]);
+  return sample;
+}
+
+Matrix6 covarianceOf(const Matrix6& information) {
+  return kVarianceInflation * information.inverse();
+}
+
+}  // namespace
+
+Tracker::Tracker(const Config& config)
+    : config_(config),
+      clock_watch_(config.mapper.clock_jump, config.mapper.clock_leap),
+      matcher_(config.matcher),
+      acceptance_(config.matcher, config.mapper) {}
+
+ClockWatch::Order Tracker::checkStamp(double stamp) {
+  const ClockWatch::Order order = clock_watch_.check(stamp);
+  if (order == ClockWatch::Order::kJumpedBack) forgetMotion();
+  return order;
+}
+
+ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
+                          const TrackedMap& tracked) {
+  ScanResult result;
+  result.number = scan.number;
+  result.stamp = scan.stamp;
+  result.T_map_sensor = T_map_sensor();
+  const auto refused = [&](ScanStatus status) {
+    result.status = status;
+    return result;
+  };
+  if (isTooLarge(scan)) return refused(ScanStatus::kTooLarge);
+  if (scan.voxels.size() < kFewestVoxels) return refused(ScanStatus::kTooFew);
+  const SweepTime sweep = sweepTime(scan);
+  SweepPose now{scan.stamp + sweep.middle(), firstPose(prior), prior.T_odom_sensor};
+  if (motion_.known() && !(now.time - motion_.last().time >= kLeastInterval)) {
+    return refused(ScanStatus::kStale);
+  }
+  if (tracked.empty) {
+    result.status = ScanStatus::kFirst;
+  } else {
+    align(scan, sweep, tracked, now, result);
+  }
+  lost_in_a_row_ = result.located() ? 0 : lost_in_a_row_ + 1;
+  if (!result.located()) return result;
+  clock_watch_.accept(scan.stamp);
+  motion_.add(now, scan.stamp);
+  result.T_map_sensor = T_map_sensor();
+  return result;
+}
+
+bool Tracker::isTooLarge(const VoxelScan& scan) const {
+  return !scan.too_large.empty() ||
+         scan.voxels.size() > static_cast<size_t>(config_.voxelizer.max_voxels);
+}
+
+/// UTM coordinates, for example, are too far from their origin for a grid.
+Pose Tracker::firstPose(const ScanPrior& prior) const {
+  Pose pose = prior.T_map_first;
+  if (!inGridRange(pose, config_.voxel_size / 2)) pose.translation().setZero();
+  return pose;
+}
+
+/// Deskews by the predicted motion, matches; once more by the motion that the match has shown.
+void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const TrackedMap& tracked,
+                    SweepPose& now, ScanResult& result) {
+  const auto positions = sampleVoxels(scan, matcher_.sampleSize());
+  const Pose guess = motion_.predict(now, lost_in_a_row_ <= 1);
+  Twist twist = motion_.predictTwist(now, guess);
+  const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}),
+                                   requestFor(now, guess, tracked.version), tracked, result);
+  if (!found.accepted) return;
+  now.T_map_sensor = found.T_map_sensor;
+  if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
+  if (motion_.known()) twist = motion_.twistInSweepAt(now);
+  const auto refined = matcher_.refine(tracked.map, deskewed(scan, positions, {sweep, twist}),
+                                       now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
+  if (!inGridRange(refined.T_map_sensor, config_.voxel_size)) return;  // it ran away
+  now.T_map_sensor = refined.T_map_sensor;
+  result.covariance = covarianceOf(refined.information);
+}
+
+MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const {
+  const double since_last = motion_.known() ? now.time - motion_.last().time : 0.0;
+  MatchRequest request;
+  request.guess = guess;
+  acceptance_.setHitRatios(request);
+  request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
+  request.farthest = kFarthest + kFastest * since_last;
+  request.widest = kWidest + kFastestTurn * since_last;
+  request.seed = uint64_t{version} << 32 | lost_in_a_row_;
+  return request;
+}
+
+/// To the selected surfaces; where that is not convincing, to all.
+MatchResult Tracker::locate(const ScanSample& sample, const MatchRequest& request,
+                            const TrackedMap& tracked, ScanResult& result) {
+  const bool published = config_.matcher.mode == MatcherMode::kPublished;
+  result.status = ScanStatus::kTracked;
+  MatchResult match = matcher_.align(tracked.map, sample, request);
+  const double sigma =
+      worstSigma(match.information, medianRange(sample, matcher_.refinePoints(sample)));
+  if (!match.accepted || (!published && acceptance_.needsFallback(match, sigma))) {
+    result.status = ScanStatus::kFallback;
+    MatchRequest of_all = request;
+    of_all.all_voxels = true;
+    tracked.prepareAll();
+    match = matcher_.match(tracked.map, sample, of_all);
+  }
+  if (match.accepted) {
+    acceptance_.addHitRatio(match.hit_ratio);
+    if (!published) acceptance_.addSigma(sigma);
+    if (!published) result.covariance = covarianceOf(match.information);
+  } else {
+    result.status = ScanStatus::kLost;
+  }
+  result.hit_ratio = match.hit_ratio;
+  result.required_hit_ratio = request.required_hit_ratio;
+  result.matches = match.matches;
+  result.restarts = match.restarts;
+  return match;
+}
+
+std::vector<Eigen::Vector3d> Tracker::placed(const VoxelScan& scan) const {
+  const Deskew deskew(sweepTime(scan), motion_.twistInSweep());
+  const Pose& T_map_sensor = motion_.last().T_map_sensor;
+  std::vector<Eigen::Vector3d> centroids(scan.voxels.size());
+  std::transform(
+      scan.voxels.begin(), scan.voxels.end(), centroids.begin(),
+      [&](const ScanVoxel& voxel) -> Eigen::Vector3d { return T_map_sensor * deskew(voxel); });
+  return centroids;
+}
+
+void Tracker::forgetMotion() {
+  clock_watch_.reset();
+  motion_.forget();
+}
+
+void Tracker::reset() { *this = Tracker(config_); }
+
+}  // namespace edgevox
