@@ -11,8 +11,8 @@
 namespace edgevox::bench {
 namespace {
 
-constexpr int kEdge = 16;
-constexpr int kSide = kEdge + 2 * kernel::kHalo;
+constexpr int kSide = 16;
+constexpr int kSpan = kSide + 2 * kernel::kHalo;
 constexpr float kSmooth[3] = {1, 2, 1};
 constexpr float kSlope[3] = {-1, 0, 1};
 constexpr float kWeight[5] = {1, 4, 6, 4, 1};
@@ -21,15 +21,15 @@ constexpr float kWeight[5] = {1, 4, 6, 4, 1};
 using Occupancy = std::vector<float>;
 
 Occupancy expand(const uint64_t* rows) {
-  Occupancy occupancy(kSide * kSide * kSide);
+  Occupancy occupancy(kSpan * kSpan * kSpan);
   for (size_t i = 0; i < occupancy.size(); ++i) {
-    occupancy[i] = static_cast<float>((rows[i / kSide] >> (i % kSide)) & 1);
+    occupancy[i] = static_cast<float>((rows[i / kSpan] >> (i % kSpan)) & 1);
   }
   return occupancy;
 }
 
 const float* cellAt(const Occupancy& occupancy, int x, int y, int z) {
-  return occupancy.data() + (z * kSide + y) * kSide + x;
+  return occupancy.data() + (z * kSpan + y) * kSpan + x;
 }
 
 Eigen::Vector3f gradientAt(const Occupancy& occupancy, int x, int y, int z) {
@@ -74,9 +74,9 @@ bool isEdge(const Eigen::Matrix3d& tensor, const kernel::DenseThresholds& thresh
 void labelBlockNaive(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                      const kernel::DenseThresholds& thresholds) {
   const Occupancy occupancy = expand(occupied);
-  for (int row = 0; row < kEdge * kEdge; ++row) {
-    const int y = row % kEdge + kernel::kHalo;
-    const int z = row / kEdge + kernel::kHalo;
+  for (int row = 0; row < kSide * kSide; ++row) {
+    const int y = row % kSide + kernel::kHalo;
+    const int z = row / kSide + kernel::kHalo;
     edges[row] = 0;
     for (uint32_t bits = targets[row]; bits != 0; bits &= bits - 1) {
       const int x = __builtin_ctz(bits);

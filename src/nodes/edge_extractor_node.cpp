@@ -34,7 +34,7 @@ EdgeExtractorNode::EdgeExtractorNode(const ros::NodeHandle& handle,
       extractor_(parameters_.config.edges, parameters_.config.threads),
       edges_(ros::NodeHandle(handle).advertise<VoxelScanStamped>("edges", 10)),
       cloud_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("edges_cloud", 2)),
-      sparse_alarm_(parameters_.config.edges, parameters_.config.threads, kSparseWindow),
+      density_monitor_(parameters_.config.edges, parameters_.config.threads, kSparseWindow),
       input_(handle, "voxels", parameters_.queue_size, log_,
              [this](const Input::Arrival& arrival) { process(arrival); }),
       diagnostics_(handle, private_handle, name,
@@ -75,8 +75,8 @@ void EdgeExtractorNode::note(const std::optional<ScanRefusal>& refusal) {
 
 void EdgeExtractorNode::watchSparsity(const VoxelScan& scan, const EdgeCount& count) {
   std::unique_lock<std::mutex> lock(mutex_);
-  sparse_alarm_.add(scan, count);
-  const auto warning = sparse_alarm_.warning();
+  density_monitor_.add(scan, count);
+  const auto warning = density_monitor_.warning();
   lock.unlock();
   if (warning) log_.warn("too_sparse", textOf(*warning));
 }
@@ -88,7 +88,7 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
                   state_.last.occupied);
   if (state_.refusal) {
     status.summary(DiagnosticStatus::ERROR, "scans refused: " + state_.refusal->text);
-  } else if (const auto warning = sparse_alarm_.warning()) {
+  } else if (const auto warning = density_monitor_.warning()) {
     warn(textOf(*warning), status);
   } else if (state_.last.occupied > 0 && state_.last.edges == 0) {
     warn(
@@ -99,7 +99,7 @@ void EdgeExtractorNode::diagnose(DiagnosticStatus& status) {
   addInput(reading, state_.dropped_told, status);
   status.add("occupied voxels of a scan", state_.last.occupied);
   status.add("edge voxels of a scan", state_.last.edges);
-  status.addf("sparse voxels, median share", "%.3f", sparse_alarm_.share());
+  status.addf("sparse voxels, median share", "%.3f", density_monitor_.share());
   for (const auto& [reason, count] : state_.refused) status.add("refused: " + reason, count);
   addTimes("extract", state_.times, status);
 }

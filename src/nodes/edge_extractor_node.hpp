@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
-#include "edgevox/edges/sparse_alarm.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "nodes/diagnostics.hpp"
 #include "ros/parameters.hpp"
@@ -53,7 +53,7 @@ class EdgeExtractorNode {
   ros::Publisher cloud_;
   std::mutex mutex_;  // of the state and the alarm
   State state_;
-  SparseAlarm sparse_alarm_;
+  DensityMonitor density_monitor_;
   Input input_;
   NodeDiagnostics diagnostics_;
 };

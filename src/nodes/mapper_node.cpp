@@ -62,14 +62,14 @@ void MapperNode::process(const Input::Arrival& arrival) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (refusal) {
     ++run_.left_out[refusal->reason];
-    return tell(reportOn(scan, *refusal));
+    return report(reportOn(scan, *refusal));
   }
   const auto transforms = transformer_.transformsOf(scan.header);
   if (const auto* unusable = std::get_if<ScanRefusal>(&transforms)) {
     ++run_.left_out[unusable->reason];
-    return tell(reportOn(scan, *unusable));
+    return report(reportOn(scan, *unusable));
   }
-  tell(map(scan, std::get<ScanTransforms>(transforms)));
+  report(map(scan, std::get<ScanTransforms>(transforms)));
 }
 
 /// After a jump back TF would refuse the transforms of the new time, as too old.
@@ -143,7 +143,7 @@ void MapperNode::publishScanEdges(const ros::Time& stamp) const {
   scan_edges_.publish(toCloud(mapper_.recentEdges().edgeCentroids(), header));
 }
 
-void MapperNode::tell(ScanReport report) {
+void MapperNode::report(ScanReport report) {
   report.dropped += input_.dropped();
   if (!report.located) {
     log_.warn(report.status, "scan " + std::to_string(report.number) + " is " + report.status +

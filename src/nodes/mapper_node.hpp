@@ -47,7 +47,7 @@ class MapperNode {
   void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                    const ScanTransforms& transforms);
   void publishScanEdges(const ros::Time& stamp) const;
-  void tell(ScanReport report);
+  void report(ScanReport report);
   void publishMap();
   bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);

@@ -69,7 +69,7 @@ PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& 
 ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
   ScanReport report = reportOn(scan);
   report.located = static_cast<uint8_t>(result.located());
-  report.status = name(result.status);
+  report.status = toString(result.status);
   report.text = adviceOn(result);
   report.hit_ratio = static_cast<float>(result.hit_ratio);
   report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);

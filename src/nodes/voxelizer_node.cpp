@@ -33,10 +33,10 @@ void VoxelizerNode::process(const Input::Arrival& arrival) {
 }
 
 void VoxelizerNode::refuse(const Input::Arrival& arrival, const CloudError& error) {
-  log_.warn(name(error.fault), "cloud " + std::to_string(arrival.number) + " from '" +
-                                   input_.topic() + "' is refused: " + error.text);
+  log_.warn(toString(error.fault), "cloud " + std::to_string(arrival.number) + " from '" +
+                                       input_.topic() + "' is refused: " + error.text);
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++state_.refused[name(error.fault)];
+  ++state_.refused[toString(error.fault)];
   ++state_.refused_total;
   state_.last_refusal = error.text;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "ros/sensor_frames.hpp"
 #include "ros/stamp.hpp"
@@ -12,6 +13,12 @@ namespace {
 
 using geometry_msgs::TransformStamped;
 using Check = std::optional<TransformRefusal>;
+
+std::string textOf(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
 
 constexpr double kFarthest = 1e8;         // [m]; the earth's centre is at 6.4e6 from its surface
 constexpr double kNormTolerance = 10e-3;  // of a squared norm, as of tf2
@@ -30,7 +37,7 @@ Check checkTranslation(const TransformStamped& transform) {
   for (const double metres : {t.x, t.y, t.z}) {
     if (std::abs(metres) <= kFarthest) continue;
     return TransformRefusal{"bad_translation",
-                            "its translation has a component of " + std::to_string(metres) + " m"};
+                            "its translation has a component of " + textOf(metres) + " m"};
   }
   return std::nullopt;
 }
@@ -39,8 +46,8 @@ Check checkRotation(const TransformStamped& transform) {
   const auto& q = transform.transform.rotation;
   const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (std::abs(squared - 1.0) < kNormTolerance) return std::nullopt;
-  return TransformRefusal{"bad_rotation", "its quaternion is of norm " +
-                                              std::to_string(std::sqrt(squared)) + ", not of 1"};
+  return TransformRefusal{"bad_rotation",
+                          "its quaternion is of norm " + textOf(std::sqrt(squared)) + ", not of 1"};
 }
 
 Check checkStamp(const TransformStamped& transform) {

@@ -238,7 +238,7 @@ CheckedCloud viewOf(const Cloud& cloud) {
 
 }  // namespace
 
-const char* name(CloudFault fault) {
+const char* toString(CloudFault fault) {
   switch (fault) {
     case CloudFault::kStamp:
       return "bad_stamp";

@@ -23,7 +23,7 @@ enum class CloudFault {
   kDataSize,
   kTooLarge,  ///< by the voxelizer
 };
-const char* name(CloudFault fault);
+const char* toString(CloudFault fault);
 
 struct CloudError {
   CloudFault fault;

@@ -129,7 +129,7 @@ std::string timingsCsv(const std::deque<ScanRecord>& scans) {
   };
   for (const ScanRecord& record : scans) {
     text += std::to_string(record.cloud) + "," + fixed(record.stamp, 6) + "," +
-            name(record.status) + "," + fixed(static_cast<double>(record.hit_ratio), 4) + "," +
+            toString(record.status) + "," + fixed(static_cast<double>(record.hit_ratio), 4) + "," +
             std::to_string(record.points) + "," + std::to_string(record.voxels);
     for (const float seconds : record.stages) text += "," + ms(seconds);
     text += "," + ms(record.total) + "," + (record.latency > 0 ? ms(record.latency) : "") + "\n";

@@ -85,9 +85,9 @@ Crease makeCrease(const Vector3d& start, const Vector3d& end, double solid_angle
 }
 
 // Follows one line and closes a crease wherever the bend changes.
-class LineWalker {
+class RayTraversaler {
  public:
-  LineWalker(Probe& probe, const CreaseLine& line, std::vector<Crease>& creases)
+  RayTraversaler(Probe& probe, const CreaseLine& line, std::vector<Crease>& creases)
       : probe_(probe), line_(line), creases_(creases) {}
 
   void walk() {
@@ -163,7 +163,7 @@ void walkCircle(Probe& probe, const CreaseCircle& circle, std::vector<Crease>& c
 std::vector<Crease> findCreases(const World& world) {
   std::vector<Crease> creases;
   Probe probe(world);
-  for (const CreaseLine& line : findCreaseLines(world)) LineWalker(probe, line, creases).walk();
+  for (const CreaseLine& line : findCreaseLines(world)) RayTraversaler(probe, line, creases).walk();
   for (const CreaseCircle& circle : findCreaseCircles(world)) walkCircle(probe, circle, creases);
   return creases;
 }

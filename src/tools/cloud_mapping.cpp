@@ -12,7 +12,7 @@ void CloudMapping::add(size_t index, const BagCloud& cloud) {
   if (!cloud.message) return leaveOut(index, cloud.reason, cloud.text);
   const CloudReading reading = readCloud(*cloud.message);
   if (const auto* error = std::get_if<CloudError>(&reading)) {
-    return leaveOut(index, name(error->fault), error->text);
+    return leaveOut(index, toString(error->fault), error->text);
   }
   const auto transforms = transformer_.transformsOf(cloud.message->header);
   if (const auto* refusal = std::get_if<ScanRefusal>(&transforms)) {
@@ -35,7 +35,7 @@ void CloudMapping::process(size_t cloud, const CheckedCloud& checked,
   StageTimer timer(Clock::kProcessCpu);
   const PipelineResult result = pipeline_.process(checked.view, transforms.prior());
   if (!result.too_large.empty()) {
-    return leaveOut(cloud, name(CloudFault::kTooLarge), result.too_large);
+    return leaveOut(cloud, toString(CloudFault::kTooLarge), result.too_large);
   }
   run_.add(cloud, result, transforms.T_base_sensor, timer.lap());
 }

@@ -26,7 +26,7 @@ class CloudMapping {
 
   const RunRecord& run() const { return run_; }
   const MapBuilder& map() const { return pipeline_.map(); }
-  const SparseAlarm& sparseAlarm() const { return pipeline_.sparseAlarm(); }
+  const DensityMonitor& densityMonitor() const { return pipeline_.densityMonitor(); }
 
  private:
   void leaveOut(size_t cloud, const std::string& reason, const std::string& text);

@@ -49,7 +49,7 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   for (const std::string& text : textsOf(bag.losses())) console.print(text);
   requireScans(bag, mapping);
   mapping.finish();
-  if (const auto warning = mapping.sparseAlarm().warning()) console.print(textOf(*warning));
+  if (const auto warning = mapping.densityMonitor().warning()) console.print(textOf(*warning));
   if (mapping.map().isFull()) console.print(fullText(configOf(options).map));
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
-#include "edgevox/edges/sparse_alarm.hpp"
 #include "nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
 #include "ros/voxel_scan_message.hpp"
@@ -125,7 +125,7 @@ TEST_F(EdgeExtractorTest, WarnsOfVoxelsSmallerThanTheGapsAndNamesASize) {
   start();
   VoxelScan scan =
       Voxelizer(config_.voxelizer, config_.voxel_size).voxelize(viewOf(simulateRun(1).clouds[0]));
-  SparseAlarm alarm(config_.edges, 1, SparseAlarm::kEveryScan);
+  DensityMonitor alarm(config_.edges, 1, DensityMonitor::kEveryScan);
   alarm.add(scan, EdgeExtractor(config_.edges, 1).extract(scan));
   ASSERT_TRUE(alarm.warning());
   ASSERT_GT(alarm.warning()->voxel_size, config_.voxel_size);

@@ -225,7 +225,7 @@ TEST_F(GarbageTest, OneOdometryFarAwayCostsItsScansAtMost) {
     if (i == kMiddle) around.insert(around.begin() + 1, far);
     publishTf(around);
     map({scans()[i]});
-    EXPECT_EQ(name(results[i].status), statusOf(i)) << i;
+    EXPECT_EQ(toString(results[i].status), statusOf(i)) << i;
     EXPECT_TRUE(results[i].located() || i == kMiddle) << i;
   }
   expectOdometry(basePoses(results));

@@ -49,7 +49,8 @@ class FaultsTest : public MapperTest {
     const auto results = mapped(sent, {}, config);
     ASSERT_TRUE(results[kMiddle + 1].clock_jumped && results.back().located());
     expectOdometry(posesOf(results));
-    for (size_t i = 0; i < sent.size(); ++i) EXPECT_EQ(name(results[i].status), statusOf(i)) << i;
+    for (size_t i = 0; i < sent.size(); ++i)
+      EXPECT_EQ(toString(results[i].status), statusOf(i)) << i;
     EXPECT_EQ("stale", statusOf(kMiddle));
     EXPECT_TRUE(logs(Log::WARN, {resolved("mapper"), "stamps have jumped back", words}));
   }

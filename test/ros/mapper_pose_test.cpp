@@ -123,7 +123,7 @@ TEST_F(MapperTest, ReportsEveryScan) {
     EXPECT_EQ("lidar", report.header.frame_id);
     EXPECT_EQ(100 + i, report.number);
     EXPECT_TRUE(report.located);
-    EXPECT_EQ(name(core.scan.status), report.status);
+    EXPECT_EQ(toString(core.scan.status), report.status);
     EXPECT_EQ("", report.text);
     EXPECT_EQ(static_cast<float>(core.scan.hit_ratio), report.hit_ratio);
     EXPECT_EQ(static_cast<float>(core.scan.required_hit_ratio), report.required_hit_ratio);

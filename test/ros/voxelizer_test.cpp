@@ -154,8 +154,8 @@ TEST_F(VoxelizerTest, RefusesEveryBadCloudAndGoesOn) {
     std::vector<std::string> words = bad[i].words;
     words.push_back(resolved("voxelizer: cloud ") + std::to_string(2 * i) + " from '" +
                     resolved("points") + "' is refused");
-    EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN, words)) << name(bad[i].fault);
-    const std::string key = std::string("refused: ") + name(bad[i].fault);
+    EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN, words)) << toString(bad[i].fault);
+    const std::string key = std::string("refused: ") + toString(bad[i].fault);
     EXPECT_TRUE(tells("voxelizer", [&](const Status& s) { return valueOf(s, key) == "1"; })) << key;
   }
   EXPECT_TRUE(tells("voxelizer", Status::WARN, {"clouds refused", "cut short"}));

@@ -22,15 +22,15 @@ inline Voxels sorted(Voxels voxels) {
   return voxels;
 }
 
-template <int kEdge>
-BitGrid<kEdge> gridOf(const Voxels& voxels) {
-  BitGrid<kEdge> grid;
+template <int kSide>
+BitGrid<kSide> gridOf(const Voxels& voxels) {
+  BitGrid<kSide> grid;
   for (const VoxelIndex& v : voxels) grid.set(v);
   return grid;
 }
 
-template <int kEdge>
-Voxels voxelsOf(const BitGrid<kEdge>& grid) {
+template <int kSide>
+Voxels voxelsOf(const BitGrid<kSide>& grid) {
   Voxels voxels;
   grid.forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
   std::sort(voxels.begin(), voxels.end());

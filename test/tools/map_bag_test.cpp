@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "map_bag_fixture.hpp"

@@ -48,7 +48,7 @@ void expectFault(const PointCloud2& cloud, CloudFault fault,
   const CloudReading reading = readCloud(cloud);
   ASSERT_TRUE(std::holds_alternative<CloudError>(reading));
   const auto& error = std::get<CloudError>(reading);
-  EXPECT_STREQ(name(error.fault), name(fault));
+  EXPECT_STREQ(toString(error.fault), toString(fault));
   for (const std::string& word : words) {
     EXPECT_NE(error.text.find(word), std::string::npos) << "'" << word << "' in: " << error.text;
   }

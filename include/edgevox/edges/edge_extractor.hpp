@@ -13,10 +13,10 @@ namespace edgevox {
 /// Labels occupied voxels that lie on geometric edges by the structure tensor of the occupancy
 /// (Ryde, Delmerico, Corso 2013, eq. 5-7). A label depends on the voxels within `reach` of its
 /// own alone, so it is the same for any block edge, number of threads and instruction set.
-template <int kEdge>
+template <int kSide>
 class EdgeLabeller {
  public:
-  using Grid = BitGrid<kEdge>;
+  using Grid = BitGrid<kSide>;
 
   /// `support`: least eigenvalue of the covariance of the occupied positions in the 7^3
   /// neighbourhood [voxel^2]; 0 switches the filter off. Throws ConfigError when the instruction
@@ -47,9 +47,9 @@ EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threa
 /// Structure tensor and support look at several voxels, so edges come as bands: of the
 /// `candidates` among `targets` those become `edges` that have at least `neighbours` other
 /// candidates in their 3^3 neighbourhood. Other voxels of `edges` stay.
-template <int kEdge>
-void thinEdges(const BitGrid<kEdge>& candidates, const BitGrid<kEdge>& targets, int neighbours,
-               BitGrid<kEdge>& edges);
+template <int kSide>
+void thinEdges(const BitGrid<kSide>& candidates, const BitGrid<kSide>& targets, int neighbours,
+               BitGrid<kSide>& edges);
 
 extern template void thinEdges<8>(const BitGrid<8>&, const BitGrid<8>&, int, BitGrid<8>&);
 extern template void thinEdges<16>(const BitGrid<16>&, const BitGrid<16>&, int, BitGrid<16>&);

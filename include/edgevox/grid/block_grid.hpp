@@ -108,26 +108,26 @@ inline size_t bitCount(uint64_t bits) {
   return (bits * 0x0101010101010101ULL) >> 56;
 }
 
-/// The place of a voxel inside a block of kEdge voxels a side.
-template <int kEdge>
+/// The place of a voxel inside a block of kSide voxels a side.
+template <int kSide>
 struct BlockLayout {
-  static_assert(kEdge == 8 || kEdge == 16 || kEdge == 32, "a row of voxels is one word");
-  static constexpr int kShift = kEdge == 8 ? 3 : kEdge == 16 ? 4 : 5;
-  static constexpr int kRows = kEdge * kEdge;
-  static constexpr int kVoxels = kEdge * kEdge * kEdge;
+  static_assert(kSide == 8 || kSide == 16 || kSide == 32, "a row of voxels is one word");
+  static constexpr int kShift = kSide == 8 ? 3 : kSide == 16 ? 4 : 5;
+  static constexpr int kRows = kSide * kSide;
+  static constexpr int kVoxels = kSide * kSide * kSide;
   using Row =
-      std::conditional_t<kEdge == 8, uint8_t, std::conditional_t<kEdge == 16, uint16_t, uint32_t>>;
+      std::conditional_t<kSide == 8, uint8_t, std::conditional_t<kSide == 16, uint16_t, uint32_t>>;
 
   static VoxelIndex block(const VoxelIndex& v) { return coarser(v, kShift); }
-  static int column(const VoxelIndex& v) { return v.x & (kEdge - 1); }
-  static int row(const VoxelIndex& v) { return (v.z & (kEdge - 1)) * kEdge + (v.y & (kEdge - 1)); }
-  static int cell(const VoxelIndex& v) { return row(v) * kEdge + column(v); }
+  static int column(const VoxelIndex& v) { return v.x & (kSide - 1); }
+  static int row(const VoxelIndex& v) { return (v.z & (kSide - 1)) * kSide + (v.y & (kSide - 1)); }
+  static int cell(const VoxelIndex& v) { return row(v) * kSide + column(v); }
   static VoxelIndex voxel(const VoxelIndex& block, int row, int column) {
-    return {block.x * kEdge + column, block.y * kEdge + (row & (kEdge - 1)),
-            block.z * kEdge + (row >> kShift)};
+    return {block.x * kSide + column, block.y * kSide + (row & (kSide - 1)),
+            block.z * kSide + (row >> kShift)};
   }
 
-  using Bits = std::array<Row, kRows>;  ///< row z * kEdge + y, bit x
+  using Bits = std::array<Row, kRows>;  ///< row z * kSide + y, bit x
   static bool test(const Bits& bits, const VoxelIndex& v) {
     return (bits[static_cast<size_t>(row(v))] >> column(v)) & 1U;
   }
@@ -137,10 +137,10 @@ struct BlockLayout {
 };
 
 /// A set of voxels. Cleared blocks keep their memory for the next use.
-template <int kEdge>
+template <int kSide>
 class BitGrid {
  public:
-  using Layout = BlockLayout<kEdge>;
+  using Layout = BlockLayout<kSide>;
   using Row = typename Layout::Row;
   using Block = typename Layout::Bits;
 
@@ -237,33 +237,33 @@ class BitGrid {
 };
 
 /// Tests voxels that lie near one another: the block of the last one is kept.
-template <int kEdge>
+template <int kSide>
 class BitReader {
  public:
   /// `grid` must outlive this and stay as it is.
-  explicit BitReader(const BitGrid<kEdge>& grid) : grid_(grid) {}
+  explicit BitReader(const BitGrid<kSide>& grid) : grid_(grid) {}
 
   bool test(const VoxelIndex& v) {
-    const VoxelIndex block = BitGrid<kEdge>::Layout::block(v);
+    const VoxelIndex block = BitGrid<kSide>::Layout::block(v);
     if (!known_ || block != index_) block_ = grid_.findBlock(block);
     known_ = true;
     index_ = block;
-    return block_ != nullptr && BitGrid<kEdge>::Layout::test(*block_, v);
+    return block_ != nullptr && BitGrid<kSide>::Layout::test(*block_, v);
   }
 
  private:
-  const BitGrid<kEdge>& grid_;
-  const typename BitGrid<kEdge>::Block* block_ = nullptr;
+  const BitGrid<kSide>& grid_;
+  const typename BitGrid<kSide>::Block* block_ = nullptr;
   VoxelIndex index_;
   bool known_ = false;
 };
 
 /// From a voxel to a number given at its insertion: where its data are kept. A block holds the
 /// numbers of its voxels and no others, so that a voxel on its own is small.
-template <int kEdge>
+template <int kSide>
 class SlotGrid {
  public:
-  using Layout = BlockLayout<kEdge>;
+  using Layout = BlockLayout<kSide>;
   static constexpr uint32_t kNone = 0xffffffff;
 
   /// A bit a cell of a block.

@@ -95,7 +95,7 @@ inline uint64_t mixBits(uint64_t v) {
 inline uint64_t voxelHash(const VoxelIndex& v) { return mixBits(packedIndex(v)); }
 
 /// In [0, 1), the same for a voxel at all times.
-inline double lotOf(const VoxelIndex& v) {
+inline double unitHash(const VoxelIndex& v) {
   return std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53);
 }
 

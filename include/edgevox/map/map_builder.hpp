@@ -82,7 +82,7 @@ class MapBuilder {
     uint32_t last_pass = 0;  // scan that last saw through it
     uint32_t passes = 0;     // scans that did since the last hit
   };
-  struct Sight;
+  struct Ray;
 
   /// Makes centroids_ and voxels_ of those in range.
   void setPoints(const std::vector<Eigen::Vector3d>& centroids);
@@ -100,8 +100,8 @@ class MapBuilder {
   void selectNew(int level, uint32_t slot);
   void markOccupied(const VoxelIndex& v);
   void clearSeenThrough(const Eigen::Vector3d& sensor);
-  void lookThrough(const Sight& sight, const VoxelIndex& parent);
-  bool isSeenThrough(const Sight& sight, uint32_t parent_slot, const Eigen::Vector3d& point) const;
+  void lookThrough(const Ray& ray, const VoxelIndex& parent);
+  bool isSeenThrough(const Ray& ray, uint32_t parent_slot, const Eigen::Vector3d& point) const;
   bool isHit(const VoxelIndex& v) const { return hit_grid_.find(v) != SlotGrid<8>::kNone; }
   bool isHitBeside(const VoxelIndex& v) const;
   void remove(const VoxelIndex& v);

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "edgevox/config.hpp"
+#include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
-#include "edgevox/edges/sparse_alarm.hpp"
 #include "edgevox/mapping/mapper.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/scan/voxelizer.hpp"
@@ -36,13 +36,13 @@ class Pipeline {
   Mapper& mapper() { return mapper_; }
   const MapBuilder& map() const { return mapper_.map(); }
   /// Over all scans.
-  const SparseAlarm& sparseAlarm() const { return sparse_alarm_; }
+  const DensityMonitor& densityMonitor() const { return density_monitor_; }
 
  private:
   Clock clock_;
   Voxelizer voxelizer_;
   EdgeExtractor extractor_;
-  SparseAlarm sparse_alarm_;
+  DensityMonitor density_monitor_;
   Mapper mapper_;
 };
 

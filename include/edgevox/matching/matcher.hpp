@@ -22,11 +22,11 @@ using ScanSample = std::vector<Eigen::Vector3d>;
 struct MatchRequest {
   Pose guess = Pose::Identity();  ///< T_map_sensor
   double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
-  double far_hit_ratio = 1.0;     ///< the same for a match more than half of `farthest` away
+  double far_hit_ratio = 1.0;     ///< the same for a match more than half of `max_translation` away
   double trusted_hit_ratio = 0;   ///< a refinement that reaches it from the guess needs no search
   double reach = 1.0;             ///< widening of the restarts; 1 is 1 m and 25 degrees
-  double farthest = 4.0;          ///< of an accepted match from the guess [m]
-  double widest = 1.4;            ///< the same [rad]
+  double max_translation = 4.0;   ///< of an accepted match from the guess [m]
+  double max_rotation = 1.4;      ///< the same [rad]
   bool all_voxels = false;        ///< refine against all occupied voxels
   uint64_t seed = 0;              ///< of the restarts
 };

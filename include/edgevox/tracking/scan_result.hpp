@@ -18,7 +18,7 @@ enum class ScanStatus {
   kTooFew,    ///< too few occupied voxels; not used
   kTooLarge,  ///< more points or voxels than allowed; not used
 };
-const char* name(ScanStatus status);
+const char* toString(ScanStatus status);
 
 struct MapperTimes {
   double match = 0.0;   ///< sampling, prediction, search and refinement [s]

@@ -9,13 +9,13 @@ namespace edgevox {
 namespace kernel {
 namespace {
 
-/// A cube of kEdge + 2 kDenseHalo cells a side, x fastest.
-template <int kEdge, typename Real>
+/// A cube of kSide + 2 kDenseHalo cells a side, x fastest.
+template <int kSide, typename Real>
 class DenseBlock {
  public:
-  static constexpr int kSide = kEdge + 2 * kDenseHalo;
-  static constexpr int kCells = kSide * kSide * kSide;
-  static constexpr int kStride[3] = {1, kSide, kSide* kSide};
+  static constexpr int kSpan = kSide + 2 * kDenseHalo;
+  static constexpr int kCells = kSpan * kSpan * kSpan;
+  static constexpr int kStride[3] = {1, kSpan, kSpan* kSpan};
   using Field = std::vector<Real>;
 
   void setTaps(const DenseTaps& taps) {
@@ -48,9 +48,9 @@ class DenseBlock {
   }
 
   void fill(const uint64_t* occupied) {
-    for (int row = 0; row < kSide * kSide; ++row) {
-      for (int x = 0; x < kSide; ++x) {
-        occupancy_[static_cast<size_t>(row * kSide + x)] =
+    for (int row = 0; row < kSpan * kSpan; ++row) {
+      for (int x = 0; x < kSpan; ++x) {
+        occupancy_[static_cast<size_t>(row * kSpan + x)] =
             static_cast<Real>((occupied[row] >> x) & 1);
       }
     }
@@ -129,17 +129,17 @@ DenseTaps paperTaps() {
 
 DenseTaps integerTaps() { return {{0, -1, 0, 1, 0}, {0, 1, 2, 1, 0}, {1, 4, 6, 4, 1}}; }
 
-template <int kEdge, typename Real>
+template <int kSide, typename Real>
 size_t labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                        const DenseTaps& taps, const DenseThresholds& thresholds) {
   size_t sparse = 0;
-  using Dense = DenseBlock<kEdge, Real>;
+  using Dense = DenseBlock<kSide, Real>;
   static thread_local Dense dense;  // 700 KB and more, kept from block to block
   dense.setTaps(taps);
   const auto& tensor = dense.tensor(occupied);
-  for (int row = 0; row < kEdge * kEdge; ++row) {
-    const int y = row % kEdge + kDenseHalo;
-    const int z = row / kEdge + kDenseHalo;
+  for (int row = 0; row < kSide * kSide; ++row) {
+    const int y = row % kSide + kDenseHalo;
+    const int z = row / kSide + kDenseHalo;
     edges[row] = 0;
     for (uint32_t bits = targets[row]; bits != 0; bits &= bits - 1) {
       const int x = __builtin_ctz(bits);

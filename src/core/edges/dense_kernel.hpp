@@ -32,7 +32,7 @@ struct DenseThresholds {
 };
 
 /// Rows and result as for LabelBlock, with a halo of kDenseHalo. Real is float or double.
-template <int kEdge, typename Real>
+template <int kSide, typename Real>
 size_t labelBlockDense(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                        const DenseTaps& taps, const DenseThresholds& thresholds);
 

@@ -43,16 +43,16 @@ kernel::LabelBlock chooseKernel(InstructionSet instruction_set, int block_edge) 
 }
 
 /// The candidates among the `targets` of a row of a block that have enough others around them.
-template <int kEdge>
+template <int kSide>
 uint32_t surrounded(const uint64_t* candidates, int row, uint32_t targets, int neighbours) {
-  const uint64_t* first = candidates + row / kEdge * (kEdge + 2) + row % kEdge;
+  const uint64_t* first = candidates + row / kSide * (kSide + 2) + row % kSide;
   uint32_t kept = 0;
-  uint32_t bits = targets & static_cast<uint32_t>(first[kEdge + 3] >> 1);
+  uint32_t bits = targets & static_cast<uint32_t>(first[kSide + 3] >> 1);
   for (; bits != 0; bits &= bits - 1) {
     const int x = __builtin_ctz(bits);
     uint32_t cube = 0;
     for (int i = 0; i < 9; ++i) {
-      const uint64_t three = (first[i / 3 * (kEdge + 2) + i % 3] >> x) & 7;
+      const uint64_t three = (first[i / 3 * (kSide + 2) + i % 3] >> x) & 7;
       cube |= static_cast<uint32_t>(three) << (3 * i);
     }
     if (__builtin_popcount(cube) > neighbours) kept |= 1U << x;
@@ -61,17 +61,17 @@ uint32_t surrounded(const uint64_t* candidates, int row, uint32_t targets, int n
 }
 
 /// Labels the voxels of one block.
-template <int kEdge>
+template <int kSide>
 class BlockLabels {
  public:
-  using Grid = BitGrid<kEdge>;
-  using Rows = std::array<uint32_t, BlockLayout<kEdge>::kRows>;
+  using Grid = BitGrid<kSide>;
+  using Rows = std::array<uint32_t, BlockLayout<kSide>::kRows>;
 
   BlockLabels(const EdgeConfig& config, double support, bool count_sparse)
       : paper_(config.mode == EdgeMode::kPaper),
         taps_(kernel::paperTaps()),
         thresholds_(thresholdsOf(config, support, count_sparse)),
-        label_block_(chooseKernel(config.instruction_set, kEdge)) {
+        label_block_(chooseKernel(config.instruction_set, kSide)) {
     if (count_sparse) paper_thresholds_.sparse = kSparse * kernel::kPaperPlane;
   }
 
@@ -81,11 +81,11 @@ class BlockLabels {
     Rows target;
     std::copy(targets.begin(), targets.end(), target.begin());
     if (paper_) {
-      const Neighbourhood<kEdge, kernel::kDenseHalo> rows(occupied, block);
-      return kernel::labelBlockDense<kEdge, double>(rows.data(), target.data(), found.data(), taps_,
+      const Neighbourhood<kSide, kernel::kDenseHalo> rows(occupied, block);
+      return kernel::labelBlockDense<kSide, double>(rows.data(), target.data(), found.data(), taps_,
                                                     paper_thresholds_);
     }
-    const Neighbourhood<kEdge, kernel::kHalo> rows(occupied, block);
+    const Neighbourhood<kSide, kernel::kHalo> rows(occupied, block);
     return label_block_(rows.data(), target.data(), found.data(), thresholds_);
   }
 
@@ -100,11 +100,11 @@ class BlockLabels {
 /// What labelling says of a voxel with no other in reach: the same of all.
 class LoneLabel {
  public:
-  template <int kEdge>
-  explicit LoneLabel(const BlockLabels<kEdge>& labels) {
-    BitGrid<kEdge> grid;
+  template <int kSide>
+  explicit LoneLabel(const BlockLabels<kSide>& labels) {
+    BitGrid<kSide> grid;
     grid.set({});
-    typename BlockLabels<kEdge>::Rows found;
+    typename BlockLabels<kSide>::Rows found;
     sparse_ = labels.of(grid, {}, grid.block(0), found) != 0;
     edge_ = (found[0] & 1U) != 0;
   }
@@ -129,22 +129,22 @@ class LoneLabel {
 };
 
 /// Whether all blocks that a voxel of `block` sees within `reach` are empty but for the voxel.
-template <int kEdge>
-bool isAlone(const BitGrid<kEdge>& occupied, const VoxelIndex& block, int reach) {
+template <int kSide>
+bool isAlone(const BitGrid<kSide>& occupied, const VoxelIndex& block, int reach) {
   const auto* bits = occupied.findBlock(block);
   int count = 0;
   int cell = 0;
   for (size_t row = 0; row < bits->size() && count < 2; ++row) {
     if ((*bits)[row] == 0) continue;
     count += __builtin_popcount((*bits)[row]);
-    cell = static_cast<int>(row) * kEdge + __builtin_ctz((*bits)[row]);
+    cell = static_cast<int>(row) * kSide + __builtin_ctz((*bits)[row]);
   }
   if (count != 1) return false;
-  const int x = cell % kEdge;
-  const int y = cell / kEdge % kEdge;
-  const int z = cell / (kEdge * kEdge);
+  const int x = cell % kSide;
+  const int y = cell / kSide % kSide;
+  const int z = cell / (kSide * kSide);
   const auto first = [&](int at) { return at < reach ? -1 : 0; };
-  const auto last = [&](int at) { return at >= kEdge - reach ? 1 : 0; };
+  const auto last = [&](int at) { return at >= kSide - reach ? 1 : 0; };
   for (int dz = first(z); dz <= last(z); ++dz) {
     for (int dy = first(y); dy <= last(y); ++dy) {
       for (int dx = first(x); dx <= last(x); ++dx) {
@@ -158,26 +158,26 @@ bool isAlone(const BitGrid<kEdge>& occupied, const VoxelIndex& block, int reach)
 
 }  // namespace
 
-template <int kEdge>
-EdgeLabeller<kEdge>::EdgeLabeller(const EdgeConfig& config, double support, int threads)
+template <int kSide>
+EdgeLabeller<kSide>::EdgeLabeller(const EdgeConfig& config, double support, int threads)
     : config_(config), support_(support), threads_(threads) {
-  chooseKernel(config.instruction_set, kEdge);
+  chooseKernel(config.instruction_set, kSide);
 }
 
-template <int kEdge>
-int EdgeLabeller<kEdge>::reach() const {
+template <int kSide>
+int EdgeLabeller<kSide>::reach() const {
   return config_.mode == EdgeMode::kPaper ? kernel::kDenseHalo : kernel::kHalo;
 }
 
-template <int kEdge>
-void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid& edges,
+template <int kSide>
+void EdgeLabeller<kSide>::label(const Grid& occupied, const Grid& targets, Grid& edges,
                                 size_t* sparse) const {
   std::vector<size_t> edge_slots(targets.blockCount());
   for (size_t slot = 0; slot < edge_slots.size(); ++slot) {
     edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
   }
   std::vector<size_t> sparse_of_block(targets.blockCount());
-  const BlockLabels<kEdge> labels(config_, support_, sparse != nullptr);
+  const BlockLabels<kSide> labels(config_, support_, sparse != nullptr);
   const LoneLabel lone(labels);
   const int reach = this->reach();
 
@@ -189,7 +189,7 @@ void EdgeLabeller<kEdge>::label(const Grid& occupied, const Grid& targets, Grid&
       sparse_of_block[slot] = lone.set(target, edge_block);
       return;
     }
-    typename BlockLabels<kEdge>::Rows found;
+    typename BlockLabels<kSide>::Rows found;
     sparse_of_block[slot] = labels.of(occupied, block, target, found);
     for (size_t row = 0; row < found.size(); ++row) {
       edge_block[row] = static_cast<typename Grid::Row>((edge_block[row] & ~target[row]) |
@@ -211,17 +211,17 @@ EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threa
   return {of_map, support, threads};
 }
 
-template <int kEdge>
-void thinEdges(const BitGrid<kEdge>& candidates, const BitGrid<kEdge>& targets, int neighbours,
-               BitGrid<kEdge>& edges) {
+template <int kSide>
+void thinEdges(const BitGrid<kSide>& candidates, const BitGrid<kSide>& targets, int neighbours,
+               BitGrid<kSide>& edges) {
   for (size_t slot = 0; slot < targets.blockCount(); ++slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
-    const Neighbourhood<kEdge, 1> rows(candidates, block);
+    const Neighbourhood<kSide, 1> rows(candidates, block);
     auto& edge_block = edges.block(edges.insertBlock(block));
-    for (int row = 0; row < BlockLayout<kEdge>::kRows; ++row) {
+    for (int row = 0; row < BlockLayout<kSide>::kRows; ++row) {
       const auto r = static_cast<size_t>(row);
-      const uint32_t kept = surrounded<kEdge>(rows.data(), row, targets.block(slot)[r], neighbours);
-      edge_block[r] = static_cast<typename BitGrid<kEdge>::Row>(
+      const uint32_t kept = surrounded<kSide>(rows.data(), row, targets.block(slot)[r], neighbours);
+      edge_block[r] = static_cast<typename BitGrid<kSide>::Row>(
           (edge_block[r] & ~targets.block(slot)[r]) | kept);
     }
   }

@@ -133,41 +133,41 @@ inline bool isSparse(const Tensor& tensor, int64_t t) {
   return (p.c1 > 0) & (p.c0 < 0);
 }
 
-template <int kEdge>
+template <int kSide>
 class BlockLabeller {
  public:
   BlockLabeller(const uint64_t* occupied, const uint32_t* targets) : occupied_(occupied) {
     std::memset(zero_, 0, sizeof(zero_));
     std::memset(target_, 0, sizeof(target_));
-    for (int z = 0; z < kEdge; ++z) {
+    for (int z = 0; z < kSide; ++z) {
       uint32_t any = 0;
-      for (int y = 0; y < kEdge; ++y) any |= targets[z * kEdge + y];
+      for (int y = 0; y < kSide; ++y) any |= targets[z * kSide + y];
       if (any == 0) continue;
       target_planes_ |= uint64_t{1} << (z + 2 * kReach);
-      std::memcpy(target_[z + 2 * kReach] + 2 * kReach, targets + z * kEdge,
-                  kEdge * sizeof(uint32_t));
+      std::memcpy(target_[z + 2 * kReach] + 2 * kReach, targets + z * kSide,
+                  kSide * sizeof(uint32_t));
     }
   }
 
   size_t label(uint32_t* edges, const Thresholds& thresholds) {
     size_t sparse = 0;
-    std::memset(edges, 0, kEdge * kEdge * sizeof(uint32_t));
-    for (int z = -kReach; z < kEdge + kReach; ++z) {
+    std::memset(edges, 0, kSide * kSide * sizeof(uint32_t));
+    for (int z = -kReach; z < kSide + kReach; ++z) {
       if (((target_planes_ >> (z + kReach)) & 31) != 0) sumRowsOfSlab(z);
       const int ready = z - kReach;
       if (ready < 0 || !hasTargets(ready)) continue;
-      sparse += labelSlab(ready, edges + ready * kEdge, thresholds);
+      sparse += labelSlab(ready, edges + ready * kSide, thresholds);
     }
     return sparse;
   }
 
  private:
   static constexpr int kReach = 2;                   // of the tensor's weights
-  static constexpr int kCells = kEdge + 2 * kReach;  // cells with a gradient, an axis
-  static constexpr int kRows = kEdge + 2 * kHalo;    // rows of occupancy, an axis
+  static constexpr int kCells = kSide + 2 * kReach;  // cells with a gradient, an axis
+  static constexpr int kRows = kSide + 2 * kHalo;    // rows of occupancy, an axis
   static constexpr int kSlabs = 2 * kReach + 1;
 
-  using SumRow = int16_t[kEdge][8];
+  using SumRow = int16_t[kSide][8];
 
   bool hasTargets(int z) const { return ((target_planes_ >> (z + 2 * kReach)) & 1) != 0; }
 
@@ -192,7 +192,7 @@ class BlockLabeller {
     const int slab = (z + kReach) % kSlabs;
     uint32_t needed[kCells];
     sumsNeeded(z, needed);
-    for (int y = -kReach; y < kEdge + kReach; ++y) {
+    for (int y = -kReach; y < kSide + kReach; ++y) {
       const int16_t(*&row)[8] = sum_row_[slab][y + kReach];
       row = zero_;
       if (needed[y + kReach] == 0) continue;
@@ -239,7 +239,7 @@ class BlockLabeller {
 
   size_t labelSlab(int z, uint32_t* edges, const Thresholds& thresholds) const {
     size_t sparse = 0;
-    for (int y = 0; y < kEdge; ++y) {
+    for (int y = 0; y < kSide; ++y) {
       uint32_t found = 0;
       for (uint32_t bits = target_[z + 2 * kReach][y + 2 * kReach]; bits != 0; bits &= bits - 1) {
         const int x = __builtin_ctz(bits);
@@ -318,17 +318,17 @@ class BlockLabeller {
 
   const uint64_t* occupied_;
   uint64_t target_planes_ = 0;  // bit z + 2 kReach
-  uint32_t target_[kEdge + 4 * kReach][kEdge + 4 * kReach];
+  uint32_t target_[kSide + 4 * kReach][kSide + 4 * kReach];
   alignas(16) int16_t product_[kCells][8];  // cells from x = -2 on
   alignas(16) SumRow sum_[kSlabs][kCells];
   alignas(16) SumRow zero_;
   const int16_t (*sum_row_[kSlabs][kCells])[8];  // into sum_, or zero_
 };
 
-template <int kEdge>
+template <int kSide>
 size_t labelBlock(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                   const Thresholds& thresholds) {
-  return BlockLabeller<kEdge>(occupied, targets).label(edges, thresholds);
+  return BlockLabeller<kSide>(occupied, targets).label(edges, thresholds);
 }
 
 LabelBlock labelBlockFor(int block_edge) {

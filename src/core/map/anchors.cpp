@@ -39,7 +39,7 @@ void chooseAnchors(MomentLevel& level, const SurfaceLevel& surfaces, size_t bloc
   const int missing = std::max(0, rule.count - flat);
   surfaces.forEachInBlock(block, [&](uint32_t slot) {
     MomentLevel::Cell& cell = level.cell(slot);
-    const double lot = lotOf(level.voxel(slot));
+    const double lot = unitHash(level.voxel(slot));
     if (cell.hits < rule.min_hits) {
       cell.anchor = false;
     } else if (isFlat(cell)) {

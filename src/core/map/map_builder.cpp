@@ -146,11 +146,11 @@ void MapBuilder::selectNew(int l, uint32_t slot) {
   MomentLevel& level = momentLevel(l);
   if (config_.representation == Representation::kAll) select(l, slot, true);
   if (config_.representation == Representation::kEdges) {
-    level.cell(slot).anchor = lotOf(level.voxel(slot)) < kNewShare;
+    level.cell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
     select(l, slot, level.cell(slot).anchor);
   }
   if (config_.representation == Representation::kRandom) {
-    select(l, slot, lotOf(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
+    select(l, slot, unitHash(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
   }
 }
 
@@ -247,7 +247,7 @@ void MapBuilder::selectRandom() {
     for (uint32_t slot = 0; slot < level.size(); ++slot) {
       const MomentLevel::Cell& cell = level.cell(slot);
       if (cell.is_back) continue;
-      select(l, slot, cell.hits >= config_.min_hits && lotOf(level.voxel(slot)) < share);
+      select(l, slot, cell.hits >= config_.min_hits && unitHash(level.voxel(slot)) < share);
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/grid/line_of_sight.hpp"
+#include "core/grid/ray_traversal.hpp"
 #include "edgevox/map/map_builder.hpp"
 
 namespace edgevox {
@@ -29,13 +29,13 @@ bool anyChild(const VoxelIndex& v, const Test& test) {
 
 }  // namespace
 
-struct MapBuilder::Sight {
+struct MapBuilder::Ray {
   Eigen::Vector3d sensor;
   Eigen::Vector3d end;
   double length;
   Eigen::Vector3d direction;
 
-  Sight(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  Ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
       : sensor(from), end(to), length((to - from).norm()), direction((to - from) / length) {}
 
   /// Whether the line passes within `near` of `point` and ends `behind` or more behind it.
@@ -59,17 +59,17 @@ void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
   const size_t stride = 1 + centroids_.size() / (kLines + 1);
   cleared_.clear();
   for (size_t i = scans_ % stride; i < centroids_.size(); i += stride) {
-    const Sight sight(sensor, centroids_[i]);
-    const double reach = sight.length - kBehind * voxel_size_;
+    const Ray ray(sensor, centroids_[i]);
+    const double reach = ray.length - kBehind * voxel_size_;
     if (!(reach > 0)) continue;
-    forEachOnLine(match_map_.occupied(1), sensor * inverse_size,
-                  (sensor + reach * sight.direction) * inverse_size,
-                  [&](const VoxelIndex& parent) { lookThrough(sight, parent); });
+    forEachOnRay(match_map_.occupied(1), sensor * inverse_size,
+                 (sensor + reach * ray.direction) * inverse_size,
+                 [&](const VoxelIndex& parent) { lookThrough(ray, parent); });
   }
   for (const VoxelIndex& v : cleared_) remove(v);
 }
 
-void MapBuilder::lookThrough(const Sight& sight, const VoxelIndex& parent) {
+void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
   const uint32_t parent_slot = match_map_.surfaces(1).slotOf(parent);
   if (moments(1).cell(parent_slot).last_scan == scans_)
     return;  // then all its children are hit or beside
@@ -78,7 +78,7 @@ void MapBuilder::lookThrough(const Sight& sight, const VoxelIndex& parent) {
     const VoxelIndex v = child(parent, i);
     const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(block), v);
     if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
-    if (!isSeenThrough(sight, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
+    if (!isSeenThrough(ray, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
     Hit& hit = hits_[slot];
     hit.last_pass = scans_;
     if (++hit.passes == static_cast<uint32_t>(config_.clear_after)) cleared_.push_back(v);
@@ -87,12 +87,12 @@ void MapBuilder::lookThrough(const Sight& sight, const VoxelIndex& parent) {
 
 /// Lines that graze a surface pass its voxels, too, and noise lifts points off it: neither ends
 /// far behind the surface.
-bool MapBuilder::isSeenThrough(const Sight& sight, uint32_t parent_slot,
+bool MapBuilder::isSeenThrough(const Ray& ray, uint32_t parent_slot,
                                const Eigen::Vector3d& point) const {
-  if (!sight.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
+  if (!ray.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
   const Eigen::Vector3d normal = moments(1).normal(parent_slot);
-  return normal.isZero() ? sight.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
-                         : sight.crosses(point, normal, kBehind * voxel_size_);
+  return normal.isZero() ? ray.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
+                         : ray.crosses(point, normal, kBehind * voxel_size_);
 }
 
 /// Whether this scan hit one of the 26 neighbours.

@@ -15,7 +15,7 @@ Pipeline::Pipeline(const Config& config, Clock clock)
     : clock_(clock),
       voxelizer_(checked(config).voxelizer, config.voxel_size),
       extractor_(config.edges, config.threads),
-      sparse_alarm_(config.edges, config.threads, SparseAlarm::kEveryScan),
+      density_monitor_(config.edges, config.threads, DensityMonitor::kEveryScan),
       mapper_(config, clock) {}
 
 PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior) {
@@ -24,7 +24,7 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   VoxelScan scan = voxelizer_.voxelize(cloud);
   result.voxelize = timer.lap();
   result.edges = extractor_.extract(scan);
-  sparse_alarm_.add(scan, result.edges);
+  density_monitor_.add(scan, result.edges);
   result.extract = timer.lap();
   result.scan = mapper_.process(scan, prior);
   result.points = scan.points_read;

@@ -259,8 +259,8 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
   if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
   const Pose moved = request.guess.inverse() * result.T_map_sensor;
-  const double distance = std::max(moved.translation().norm() / request.farthest,
-                                   rotationAngle(moved) / request.widest);
+  const double distance = std::max(moved.translation().norm() / request.max_translation,
+                                   rotationAngle(moved) / request.max_rotation);
   const double required = distance > 0.5 ? request.far_hit_ratio : request.required_hit_ratio;
   result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
   result.accepted = distance <= 1.0 && result.hit_ratio >= required;

@@ -3,7 +3,7 @@
 
 namespace edgevox {
 
-const char* name(ScanStatus status) {
+const char* toString(ScanStatus status) {
   switch (status) {
     case ScanStatus::kFirst:
       return "first";

@@ -14,9 +14,9 @@ namespace {
 constexpr size_t kFewestVoxels = 50;
 constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLongestReach = 4.0;
-constexpr double kFarthest = 2.0;                      // a match from its prediction [m]
+constexpr double kMaxTranslation = 2.0;                // a match from its prediction [m]
 constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
-constexpr double kWidest = 60.0 * M_PI / 180.0;        // [rad]
+constexpr double kMaxRotation = 60.0 * M_PI / 180.0;   // [rad]
 constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
 constexpr double kLeastInterval = 1e-3;                // of two sweeps' middles [s]
 
@@ -112,8 +112,8 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32
   request.guess = guess;
   acceptance_.setHitRatios(request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
-  request.farthest = kFarthest + kFastest * since_last;
-  request.widest = kWidest + kFastestTurn * since_last;
+  request.max_translation = kMaxTranslation + kFastest * since_last;
+  request.max_rotation = kMaxRotation + kFastestTurn * since_last;
   request.seed = uint64_t{version} << 32 | lost_in_a_row_;
   return request;
 }

@@ -142,7 +142,7 @@ TEST(Dihedral, RightAnglesAreFoundWithTheSupportOfMaps) {
   EXPECT_EQ(0, tally.on_faces.edges);
 }
 
-template <int kEdge>
+template <int kSide>
 void expectThinned(const Voxels& candidates, const Voxels& targets, int neighbours) {
   const auto thinned = gridOf<16>(thinnedAtOnce(candidates, neighbours));
   const auto target = gridOf<16>(targets);
@@ -150,9 +150,9 @@ void expectThinned(const Voxels& candidates, const Voxels& targets, int neighbou
   for (const VoxelIndex& v : candidates) {
     if (!target.test(v) || thinned.test(v)) expected.push_back(v);
   }
-  auto edges = gridOf<kEdge>(candidates);  // all of them, to begin with
-  thinEdges<kEdge>(gridOf<kEdge>(candidates), gridOf<kEdge>(targets), neighbours, edges);
-  EXPECT_TRUE(sameVoxels(expected, voxelsOf(edges))) << kEdge << " " << neighbours;
+  auto edges = gridOf<kSide>(candidates);  // all of them, to begin with
+  thinEdges<kSide>(gridOf<kSide>(candidates), gridOf<kSide>(targets), neighbours, edges);
+  EXPECT_TRUE(sameVoxels(expected, voxelsOf(edges))) << kSide << " " << neighbours;
 }
 
 TEST(Thinning, IsThatOfEachVoxelByItself) {

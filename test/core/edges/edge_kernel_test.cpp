@@ -20,11 +20,11 @@
 namespace edgevox::test {
 namespace {
 
-template <int kEdge = 16>
+template <int kSide = 16>
 Voxels labelled(const Voxels& occupied, const EdgeConfig& config, double support, int threads = 1) {
-  const auto grid = gridOf<kEdge>(occupied);
-  BitGrid<kEdge> edges;
-  EdgeLabeller<kEdge>(config, support, threads).label(grid, grid, edges);
+  const auto grid = gridOf<kSide>(occupied);
+  BitGrid<kSide> edges;
+  EdgeLabeller<kSide>(config, support, threads).label(grid, grid, edges);
   return voxelsOf(edges);
 }
 
@@ -154,13 +154,13 @@ TEST(PaperMode, UsesNeitherSupportNorThresholds) {
   EXPECT_TRUE(sameVoxels(edges, labelled(voxels, other, 0.75)));
 }
 
-template <int kEdge>
+template <int kSide>
 size_t sparseCount(const Voxels& voxels, const EdgeConfig& config, int threads = 1) {
-  const auto grid = gridOf<kEdge>(voxels);
-  BitGrid<kEdge> edges;
+  const auto grid = gridOf<kSide>(voxels);
+  BitGrid<kSide> edges;
   size_t sparse = 12345;  // must be overwritten
-  EdgeLabeller<kEdge>(config, 0.3, threads).label(grid, grid, edges, &sparse);
-  EXPECT_TRUE(sameVoxels(labelled<kEdge>(voxels, config, 0.3), voxelsOf(edges)));
+  EdgeLabeller<kSide>(config, 0.3, threads).label(grid, grid, edges, &sparse);
+  EXPECT_TRUE(sameVoxels(labelled<kSide>(voxels, config, 0.3), voxelsOf(edges)));
   return sparse;
 }
 
@@ -237,13 +237,13 @@ TEST(Independence, OfTheNumberOfThreads) {
   }
 }
 
-template <int kEdge>
+template <int kSide>
 void expectSameLabelsWithAvx2(const Voxels& voxels) {
   const auto portable = withInstructionSet(InstructionSet::kPortable);
   const auto avx2 = withInstructionSet(InstructionSet::kAvx2);
   for (const double support : {0.0, 0.3}) {
-    EXPECT_TRUE(sameVoxels(labelled<kEdge>(voxels, portable, support),
-                           labelled<kEdge>(voxels, avx2, support)));
+    EXPECT_TRUE(sameVoxels(labelled<kSide>(voxels, portable, support),
+                           labelled<kSide>(voxels, avx2, support)));
   }
 }
 
@@ -349,20 +349,20 @@ bool nearThreshold(const ReferenceExtractor& reference, const VoxelIndex& v,
   return std::abs(middle - t) < 100.0;
 }
 
-template <int kEdge>
+template <int kSide>
 Voxels labelledDense(const Voxels& voxels, const kernel::DenseThresholds& thresholds) {
-  const auto grid = gridOf<kEdge>(voxels);
-  BitGrid<kEdge> edges;
+  const auto grid = gridOf<kSide>(voxels);
+  BitGrid<kSide> edges;
   for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
     const VoxelIndex& block = grid.blockIndex(slot);
-    const Neighbourhood<kEdge, kernel::kDenseHalo> rows(grid, block);
-    std::array<uint32_t, kEdge * kEdge> targets, found;
+    const Neighbourhood<kSide, kernel::kDenseHalo> rows(grid, block);
+    std::array<uint32_t, kSide * kSide> targets, found;
     std::copy(grid.block(slot).begin(), grid.block(slot).end(), targets.begin());
-    kernel::labelBlockDense<kEdge, double>(rows.data(), targets.data(), found.data(),
+    kernel::labelBlockDense<kSide, double>(rows.data(), targets.data(), found.data(),
                                            kernel::integerTaps(), thresholds);
     auto& out = edges.block(edges.insertBlock(block));
     for (size_t row = 0; row < out.size(); ++row) {
-      out[row] = static_cast<typename BitGrid<kEdge>::Row>(found[row]);
+      out[row] = static_cast<typename BitGrid<kSide>::Row>(found[row]);
     }
   }
   return voxelsOf(edges);

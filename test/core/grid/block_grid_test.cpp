@@ -18,9 +18,9 @@ namespace {
 template <typename Size>
 class Grids : public ::testing::Test {};
 
-template <int kEdge>
+template <int kSide>
 struct Edge {
-  static constexpr int kValue = kEdge;
+  static constexpr int kValue = kSide;
 };
 using Edges = ::testing::Types<Edge<8>, Edge<16>, Edge<32>>;
 TYPED_TEST_SUITE(Grids, Edges, );

@@ -80,7 +80,7 @@ TEST(Status, OfTheFirstScansIsFirstThenFallbackThenTracked) {
   EXPECT_TRUE(sameBits(Pose::Identity(), results[0].T_map_sensor));
   EXPECT_EQ(ScanStatus::kFallback, results[1].status);  // no voxel has two hits yet
   for (size_t i = 8; i < results.size(); ++i) {
-    EXPECT_EQ(ScanStatus::kTracked, results[i].status) << i << name(results[i].status);
+    EXPECT_EQ(ScanStatus::kTracked, results[i].status) << i << toString(results[i].status);
   }
   EXPECT_EQ(12U, mapper.map().scans());
   for (size_t i = 0; i < results.size(); ++i) {

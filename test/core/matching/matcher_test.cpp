@@ -279,16 +279,16 @@ TEST(Match, TooFarFromTheGuessIsNotAccepted) {
   config.max_restarts = 0;
   const Matcher matcher(config);
   for (const double farthest : {0.5, 4.5}) {
-    request.farthest = farthest;
+    request.max_translation = farthest;
     const MatchResult result = matcher.match(room.map, room.sample, request);
     EXPECT_EQ(farthest > 0.6, result.accepted) << farthest << ": " << result.hit_ratio;
     if (result.accepted) EXPECT_LT(differenceOf(room.truth, result.T_map_sensor).metres, 0.03);
   }
   // Beyond half of the farthest more is asked.
   request.far_hit_ratio = 1.01;
-  request.farthest = 1.0;
+  request.max_translation = 1.0;
   EXPECT_FALSE(matcher.match(room.map, room.sample, request).accepted);
-  request.farthest = 2.0;
+  request.max_translation = 2.0;
   EXPECT_TRUE(matcher.match(room.map, room.sample, request).accepted);
 }
 

@@ -22,13 +22,13 @@ namespace edgevox {
 constexpr double kSparseLimit = 0.14;
 
 /// That voxels are smaller than the spacing of the points.
-struct SparseWarning {
+struct DensityWarning {
   double share = 0.0;       ///< of sparse voxels, median over scans
   double voxel_size = 0.0;  ///< to choose or exceed [m]; 0: none of a map would do
 };
 
 /// In words, with what to do.
-std::string textOf(const SparseWarning& warning);
+std::string textOf(const DensityWarning& warning);
 
 /// Share of the occupied voxels that are sparse if the voxels are 2^`doublings` times as large as
 /// the map's; 0 in a scan without voxels. Throws ConfigError as EdgeLabeller does.
@@ -40,12 +40,12 @@ double sparseShare(const VoxelScan& scan, int doublings, const EdgeConfig& confi
 std::optional<double> denserVoxelSize(const VoxelScan& scan, const EdgeConfig& config, int threads);
 
 /// Watches scan by scan whether the voxels are smaller than the spacing of the points.
-class SparseAlarm {
+class DensityMonitor {
  public:
   static constexpr size_t kEveryScan = std::numeric_limits<size_t>::max();
 
   /// `window`: the last scans that count.
-  SparseAlarm(const EdgeConfig& config, int threads, size_t window);
+  DensityMonitor(const EdgeConfig& config, int threads, size_t window);
 
   /// `count` is what EdgeExtractor::extract() gave for the scan. A scan too sparse is counted again
   /// in larger voxels, at most every three seconds of stamps.
@@ -54,7 +54,7 @@ class SparseAlarm {
   /// Median over the window; NaN if there was no scan.
   double share() const;
   /// If the median is above kSparseLimit.
-  std::optional<SparseWarning> warning() const;
+  std::optional<DensityWarning> warning() const;
 
  private:
   bool isDue(double stamp);

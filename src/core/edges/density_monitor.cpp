@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/edges/density_monitor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ void push(double value, size_t window, std::deque<double>& values) {
 
 }  // namespace
 
-std::string textOf(const SparseWarning& warning) {
+std::string textOf(const DensityWarning& warning) {
   std::array<char, 200> text;
   const auto percent = std::lround(100.0 * warning.share);
   if (warning.voxel_size > 0.0) {
@@ -79,10 +79,10 @@ std::optional<double> denserVoxelSize(const VoxelScan& scan, const EdgeConfig& c
   }
 }
 
-SparseAlarm::SparseAlarm(const EdgeConfig& config, int threads, size_t window)
+DensityMonitor::DensityMonitor(const EdgeConfig& config, int threads, size_t window)
     : config_(config), threads_(threads), window_(window) {}
 
-void SparseAlarm::add(const VoxelScan& scan, const EdgeCount& count) {
+void DensityMonitor::add(const VoxelScan& scan, const EdgeCount& count) {
   if (count.occupied < kFewVoxels) return;
   push(count.sparseShare(), window_, shares_);
   if (count.sparseShare() <= kSparseLimit || !isDue(scan.stamp)) return;
@@ -90,20 +90,20 @@ void SparseAlarm::add(const VoxelScan& scan, const EdgeCount& count) {
        window_, voxel_sizes_);
 }
 
-bool SparseAlarm::isDue(double stamp) {
+bool DensityMonitor::isDue(double stamp) {
   if (counted_ && std::abs(stamp - *counted_) < kPause) return false;
   counted_ = stamp;
   return true;
 }
 
-double SparseAlarm::share() const { return medianOf(shares_); }
+double DensityMonitor::share() const { return medianOf(shares_); }
 
-std::optional<SparseWarning> SparseAlarm::warning() const {
+std::optional<DensityWarning> DensityMonitor::warning() const {
   const double median = share();
   // Above the limit at least one scan of the window was; the first of all such was counted again.
   if (!(median > kSparseLimit)) return std::nullopt;
   const double size = upperMedianOf(voxel_sizes_);
-  return SparseWarning{median, std::isfinite(size) ? size : 0.0};
+  return DensityWarning{median, std::isfinite(size) ? size : 0.0};
 }
 
 }  // namespace edgevox

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/grid/line_of_sight.hpp"
+#include "core/grid/ray_traversal.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 std::vector<VoxelIndex> walked(const Vector3d& from, const Vector3d& to) {
-  LineWalk walk(from, to);
+  RayTraversal walk(from, to);
   std::vector<VoxelIndex> voxels{walk.at()};
   while (walk.advance()) voxels.push_back(walk.at());
   return voxels;
@@ -28,7 +28,7 @@ Vector3d randomPoint(Random& random) {
   return {x, y, random.uniform(-20, 20)};
 }
 
-TEST(LineWalk, GoesFromFaceToFace) {
+TEST(RayTraversal, GoesFromFaceToFace) {
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const Vector3d from = randomPoint(random);
@@ -44,7 +44,7 @@ TEST(LineWalk, GoesFromFaceToFace) {
   }
 }
 
-TEST(LineWalk, PassesAllVoxelsOfTheLine) {
+TEST(RayTraversal, PassesAllVoxelsOfTheLine) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     const Vector3d from = randomPoint(random);
@@ -57,7 +57,7 @@ TEST(LineWalk, PassesAllVoxelsOfTheLine) {
   }
 }
 
-TEST(LineWalk, AlongAnAxisAndOnTheSpot) {
+TEST(RayTraversal, AlongAnAxisAndOnTheSpot) {
   EXPECT_EQ((std::vector<VoxelIndex>{{0, 0, 0}, {-1, 0, 0}, {-2, 0, 0}}),
             walked({0.5, 0.5, 0.5}, {-1.5, 0.5, 0.5}));
   EXPECT_EQ((std::vector<VoxelIndex>{{1, 2, 3}, {1, 2, 4}, {1, 2, 5}}),
@@ -77,7 +77,7 @@ TEST(ForEachOnLine, VisitsTheVoxelsOfTheGridInOrder) {
       if (grid.test(v)) expected.push_back(v);
     }
     std::vector<VoxelIndex> visited;
-    forEachOnLine(grid, from, to, [&](const VoxelIndex& v) { visited.push_back(v); });
+    forEachOnRay(grid, from, to, [&](const VoxelIndex& v) { visited.push_back(v); });
     EXPECT_EQ(expected, visited);
   }
 }

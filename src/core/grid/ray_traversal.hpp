@@ -13,10 +13,10 @@
 namespace edgevox {
 
 /// Walks along a line from voxel to voxel (Amanatides and Woo 1987).
-class LineWalk {
+class RayTraversal {
  public:
   /// Both ends in voxels: voxel v holds v to v + 1.
-  LineWalk(const Eigen::Vector3d& from, const Eigen::Vector3d& to) : at_(voxelAt(from, 1.0)) {
+  RayTraversal(const Eigen::Vector3d& from, const Eigen::Vector3d& to) : at_(voxelAt(from, 1.0)) {
     const VoxelIndex last = voxelAt(to, 1.0);
     left_ = std::abs(last.x - at_.x) + std::abs(last.y - at_.y) + std::abs(last.z - at_.z);
     const Eigen::Vector3d line = to - from;
@@ -60,11 +60,11 @@ class LineWalk {
 };
 
 /// Calls visit(VoxelIndex) for the voxels of `grid` on the way, in order. Both ends in its voxels.
-template <int kEdge, typename Visit>
-void forEachOnLine(const BitGrid<kEdge>& grid, const Eigen::Vector3d& from,
-                   const Eigen::Vector3d& to, Visit&& visit) {
-  using Layout = BlockLayout<kEdge>;
-  LineWalk walk(from, to);
+template <int kSide, typename Visit>
+void forEachOnRay(const BitGrid<kSide>& grid, const Eigen::Vector3d& from,
+                  const Eigen::Vector3d& to, Visit&& visit) {
+  using Layout = BlockLayout<kSide>;
+  RayTraversal walk(from, to);
   VoxelIndex block = Layout::block(walk.at());
   const auto* bits = grid.findBlock(block);
   do {

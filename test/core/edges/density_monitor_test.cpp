@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edgevox/edges/sparse_alarm.hpp"
+#include "edgevox/edges/density_monitor.hpp"
 #include "support/scenes.hpp"
 
 namespace edgevox::test {
@@ -37,10 +37,10 @@ Voxels lattice(int32_t spacing) {
 
 EdgeCount countOf(VoxelScan scan) { return EdgeExtractor(kConfig, 1).extract(scan); }
 
-void add(const VoxelScan& scan, SparseAlarm& alarm) { alarm.add(scan, countOf(scan)); }
+void add(const VoxelScan& scan, DensityMonitor& alarm) { alarm.add(scan, countOf(scan)); }
 
-SparseAlarm alarmAfter(const VoxelScan& scan) {
-  SparseAlarm alarm(kConfig, 1, SparseAlarm::kEveryScan);
+DensityMonitor alarmAfter(const VoxelScan& scan) {
+  DensityMonitor alarm(kConfig, 1, DensityMonitor::kEveryScan);
   add(scan, alarm);
   return alarm;
 }
@@ -67,14 +67,14 @@ TEST(SparseShare, IsThatOfTheExtractorInVoxelsOfThatSize) {
   EXPECT_EQ(0.0, sparseShare(VoxelScan(), 0, kConfig, 1));
 }
 
-TEST(SparseAlarm, IsSilentOnSurfacesWithoutGaps) {
+TEST(DensityMonitor, IsSilentOnSurfacesWithoutGaps) {
   Random random(5);
-  const SparseAlarm alarm = alarmAfter(scanOf(roomScene(random, {60, 50, 30}).voxels));
+  const DensityMonitor alarm = alarmAfter(scanOf(roomScene(random, {60, 50, 30}).voxels));
   EXPECT_LT(alarm.share(), 0.02);
   EXPECT_FALSE(alarm.warning());
 }
 
-TEST(SparseAlarm, NamesTheVoxelThatSpansTheGaps) {
+TEST(DensityMonitor, NamesTheVoxelThatSpansTheGaps) {
   for (const int32_t spacing : {4, 8, 16}) {
     const VoxelScan scan = scanOf(lattice(spacing));
     const auto warning = alarmAfter(scan).warning();
@@ -87,7 +87,7 @@ TEST(SparseAlarm, NamesTheVoxelThatSpansTheGaps) {
   }
 }
 
-TEST(SparseAlarm, NamesSizesOfTheSeries) {
+TEST(DensityMonitor, NamesSizesOfTheSeries) {
   const Voxels voxels = lattice(4);
   const double at_10_cm = adviceOn(voxels, 0.1);
   EXPECT_TRUE(at_10_cm == 0.2 || at_10_cm == 0.4) << at_10_cm;
@@ -98,8 +98,8 @@ TEST(SparseAlarm, NamesSizesOfTheSeries) {
   EXPECT_EQ(0.0, adviceOn(lattice(1000), 0.1)) << "no voxel will do";
 }
 
-TEST(SparseAlarm, LooksAtTheMedianOfItsWindow) {
-  SparseAlarm alarm(kConfig, 1, 5);
+TEST(DensityMonitor, LooksAtTheMedianOfItsWindow) {
+  DensityMonitor alarm(kConfig, 1, 5);
   EXPECT_TRUE(std::isnan(alarm.share()));
   EXPECT_FALSE(alarm.warning());
   const Voxels sparse = lattice(4), dense = lattice(1);
@@ -112,8 +112,8 @@ TEST(SparseAlarm, LooksAtTheMedianOfItsWindow) {
   EXPECT_GT(alarm.share(), 0.9);
 }
 
-TEST(SparseAlarm, CountsAgainAtMostEveryThreeSeconds) {
-  SparseAlarm alarm(kConfig, 1, 100);
+TEST(DensityMonitor, CountsAgainAtMostEveryThreeSeconds) {
+  DensityMonitor alarm(kConfig, 1, 100);
   add(scanOf(lattice(4), 10.0), alarm);
   const double first = alarm.warning()->voxel_size;
   for (const double stamp : {10.5, 11.0, 12.9}) add(scanOf(lattice(16), stamp), alarm);
@@ -124,15 +124,15 @@ TEST(SparseAlarm, CountsAgainAtMostEveryThreeSeconds) {
   EXPECT_EQ(first, alarm.warning()->voxel_size);
 }
 
-TEST(SparseAlarm, IgnoresScansOfAFewVoxels) {
+TEST(DensityMonitor, IgnoresScansOfAFewVoxels) {
   Voxels few = lattice(4);
   few.resize(99);
-  const SparseAlarm alarm = alarmAfter(scanOf(few));
+  const DensityMonitor alarm = alarmAfter(scanOf(few));
   EXPECT_TRUE(std::isnan(alarm.share()));
   EXPECT_FALSE(alarm.warning());
 }
 
-TEST(SparseWarning, SaysWhatToDo) {
+TEST(DensityWarning, SaysWhatToDo) {
   EXPECT_EQ("too sparse: 31 % of the occupied voxels stand alone; choose voxel_size 0.2 or more",
             textOf({0.312, 0.2}));
   const std::string none = textOf({0.9, 0.0});
