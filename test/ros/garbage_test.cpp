@@ -203,7 +203,7 @@ TEST_F(GarbageTest, IsNamedAndWhatIsRefusedIsTold) {
   sendGood(0, [&] { publishTf(spoilt(odometryOf(0, -0.01))); });
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"'odom' to 'base_link'", "component of nan"},
-                                             {"quaternion is of norm 0.0"},
+                                             {"quaternion is of norm 0, not of 1"},
                                              {"a frame has no name"},
                                              {"its two frames are one"},
                                              {"4294967295 s", "correct what publishes it"}}) {
