@@ -48,17 +48,17 @@ class Tracker {
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
-  /// The next scan is predicted where the last one was.
-  void forgetMotion();
   /// As new.
   void reset();
 
  private:
+  /// The next scan is predicted where the last one was.
+  void forgetMotion();
   Pose firstPose(const ScanPrior& prior) const;
   bool isTooLarge(const VoxelScan& scan) const;
   void align(const VoxelScan& scan, const SweepTime& sweep, const TrackedMap& tracked,
              SweepPose& now, ScanResult& result);
-  MatchResult locate(const std::vector<Eigen::Vector3d>& sample, const MatchRequest& request,
+  MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
   MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
 

@@ -55,11 +55,13 @@ int score(const MatchMap& map, int level, const ScanSample& sample, size_t count
   return hits;
 }
 
-/// Whether the points of a sample, seen from a pose in the grid's range, have indices of voxels.
-bool isInGridRange(const MatchMap& map, const ScanSample& sample) {
-  return std::all_of(sample.begin(), sample.end(), [&](const Eigen::Vector3d& point) {
-    return inGridRange(point, map.voxelSize(0));
-  });
+/// Whether the pose is in the grid's range and the points of the sample, seen from there, have
+/// indices of voxels.
+bool isInGridRange(const MatchMap& map, const ScanSample& sample, const Pose& pose) {
+  const double size = map.voxelSize(0);
+  return inGridRange(pose, size) &&
+         std::all_of(sample.begin(), sample.end(),
+                     [=](const Eigen::Vector3d& point) { return inGridRange(point, size); });
 }
 
 /// Steepest ascent over `moves` until none gains; ties go to the earlier move.
@@ -220,8 +222,8 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
 MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
-  const bool possible = inGridRange(request.guess, map.voxelSize(0)) && isInGridRange(map, sample);
-  if (!result.accepted && possible) restart(map, sample, request, result);
+  if (result.accepted || !isInGridRange(map, sample, request.guess)) return result;
+  restart(map, sample, request, result);
   return result;
 }
 
@@ -230,7 +232,7 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result;
   result.T_map_sensor = request.guess;
-  if (!inGridRange(request.guess, map.voxelSize(0)) || !isInGridRange(map, sample)) return result;
+  if (!isInGridRange(map, sample, request.guess)) return result;
   if (config_.mode == MatcherMode::kPublished) {
     result.T_map_sensor = climbAsPublished(map, sample, request.guess);
     return verified(map, sample, request, result);
