@@ -10,9 +10,9 @@ namespace edgevox {
 
 /// Which voxels of the map scans are aligned to.
 enum class Representation {
-  kEdges,   ///< flat anchors, spread over space and normals, and edges where they are missing
+  kSparse,  ///< flat anchors, spread over space and normals, and edges where they are missing
   kAll,     ///< all occupied voxels
-  kRandom,  ///< as many voxels as kEdges has, chosen by hash: the yardstick for kEdges
+  kRandom,  ///< as many voxels as kSparse has, chosen by hash: the yardstick for kSparse
 };
 
 enum class EdgeMode {
@@ -48,7 +48,7 @@ struct EdgeConfig {
 };
 
 struct MapConfig {
-  Representation representation = Representation::kEdges;
+  Representation representation = Representation::kSparse;
   int min_hits = 2;     ///< scans that must have hit a voxel for it to count as occupied
   int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
   int label_every = 5;  ///< scans between two labellings

@@ -50,7 +50,7 @@ std::vector<Parameter> parametersOf(Config& c) {
        "band of them; 0 is off"},
       {"edges/instruction_set", choiceOf(c.edges.instruction_set, {"auto", "portable", "avx2"}), 0,
        0, "", "results do not depend on it"},
-      {"map/representation", choiceOf(c.map.representation, {"edges", "all", "random"}), 0, 0, "",
+      {"map/representation", choiceOf(c.map.representation, {"sparse", "all", "random"}), 0, 0, "",
        "voxels that scans are aligned to: planar anchors and, where these are missing, edges; all; "
        "or as many as of the first by chance"},
       {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},

@@ -21,8 +21,8 @@ constexpr double kDegree = M_PI / 180.0;
 
 const char* nameOf(Representation representation) {
   switch (representation) {
-    case Representation::kEdges:
-      return "edges";
+    case Representation::kSparse:
+      return "sparse";
     case Representation::kAll:
       return "all";
     case Representation::kRandom:
@@ -209,7 +209,7 @@ Table measureMaps(const Recording& recording, const MapMeasureOptions& options,
   table.add(Representation::kAll, options.config.map.anchors);
   for (const int anchors : options.anchors) {
     note(std::to_string(anchors) + " anchors, and as many voxels by chance");
-    table.add(Representation::kEdges, anchors);
+    table.add(Representation::kSparse, anchors);
     table.add(Representation::kRandom, anchors);
   }
   return table.table();

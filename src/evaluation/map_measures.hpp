@@ -24,7 +24,7 @@ struct MapMeasureOptions {
 
 /// Maps the recording once for each size and representation of the map: error against the
 /// recording's poses, and capture on the finished map, beside its bytes. Rows: all voxels, then for
-/// each size edges and as many by chance. `note` is told what is being measured.
+/// each size the sparse map and as many by chance. `note` is told what is being measured.
 Table measureMaps(const Recording& recording, const MapMeasureOptions& options,
                   const std::function<void(const std::string&)>& note);
 

@@ -27,7 +27,7 @@ po::options_description describe() {
       "folder for trajectory, map, configuration, timings and summary; made if need be");
   add("topic", po::value<Text>(), "of the clouds (default: the only one of the bag)");
   add("config", po::value<Text>(), "indoor, outdoor, terrestrial, or a YAML file");
-  add("representation", po::value<Text>(), "edges, all or random: what scans are aligned to");
+  add("representation", po::value<Text>(), "sparse, all or random: what scans are aligned to");
   add("threads", po::value<Text>(), "results do not depend on it");
   add("set", po::value<Texts>()->composing()->multitoken(),
       "name=value ..., parameters of the configuration");

@@ -40,20 +40,20 @@ class MapMeasuresTest : public ::testing::Test {
     ASSERT_EQ(5U, rows_.size());
   }
 
-  static std::vector<Row> rows_;  // all, then edges and random of 1 and of 8 anchors
+  static std::vector<Row> rows_;  // all, then sparse and random of 1 and of 8 anchors
 };
 std::vector<Row> MapMeasuresTest::rows_;
 
 TEST_F(MapMeasuresTest, RowsAreOfTheirMaps) {
-  const std::vector<std::string> maps = {"all", "edges", "random", "edges", "random"};
+  const std::vector<std::string> maps = {"all", "sparse", "random", "sparse", "random"};
   for (size_t i = 0; i < maps.size(); ++i) EXPECT_EQ(maps[i], rows_[i].at("map"));
   EXPECT_DOUBLE_EQ(1.0, number(rows_[0], "smaller"));
   EXPECT_DOUBLE_EQ(1.0, number(rows_[0], "rpe_ratio"));
   EXPECT_GT(number(rows_[1], "smaller"), number(rows_[3], "smaller"));
   EXPECT_GT(number(rows_[3], "smaller"), 1.5);
-  for (const size_t edges : {1U, 3U}) {
-    const double bytes = number(rows_[edges], "map_mb");
-    EXPECT_NEAR(bytes, number(rows_[edges + 1], "map_mb"), 0.15 * bytes);
+  for (const size_t sparse : {1U, 3U}) {
+    const double bytes = number(rows_[sparse], "map_mb");
+    EXPECT_NEAR(bytes, number(rows_[sparse + 1], "map_mb"), 0.15 * bytes);
   }
 }
 

@@ -67,9 +67,9 @@ void expectTracked(const YAML::Node& summary, int scans, const Bounds& bounds) {
   EXPECT_LE(p95, bounds.p95);
 }
 
-TEST_F(RealData, HandheldWithEdges) {
+TEST_F(RealData, HandheldWithASparseMap) {
   if (!find("handheld_a")) GTEST_SKIP() << "no handheld_a.bag";
-  expectTracked(run("edges", {}), 90, {0.007, 0.020});
+  expectTracked(run("sparse", {}), 90, {0.007, 0.020});
 }
 
 TEST_F(RealData, HandheldWithAllVoxels) {

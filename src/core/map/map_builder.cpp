@@ -145,7 +145,7 @@ void MapBuilder::addMoments(int l) {
 void MapBuilder::selectNew(int l, uint32_t slot) {
   MomentLevel& level = momentLevel(l);
   if (config_.representation == Representation::kAll) select(l, slot, true);
-  if (config_.representation == Representation::kEdges) {
+  if (config_.representation == Representation::kSparse) {
     level.cell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
     select(l, slot, level.cell(slot).anchor);
   }
@@ -191,7 +191,7 @@ void MapBuilder::chooseAnchorsAnew() {
     const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
     for (const size_t block : blocks) {
       chooseAnchors(level, surfaces, block, {count, config_.min_hits});
-      if (config_.representation != Representation::kEdges) continue;
+      if (config_.representation != Representation::kSparse) continue;
       surfaces.forEachInBlock(block,
                               [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });
     }

@@ -273,14 +273,14 @@ TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
   EXPECT_TRUE(sameVoxels(before, selectedIn(map, 1, accumulate(scans, 1))));
 }
 
-TEST(Representations, RandomSelectsAsManyAsEdges) {
+TEST(Representations, RandomSelectsAsManyAsSparse) {
   const auto scans = randomScans(13, 4, {140, 110, 60});
-  const MapBuilder edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const MapBuilder sparse = mapOf(scans, withRepresentation(Representation::kSparse));
   const MapBuilder random = mapOf(scans, withRepresentation(Representation::kRandom));
   for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
-    const auto expected = static_cast<double>(edges.matchMap().surfaces(level).selectedCount());
+    const auto expected = static_cast<double>(sparse.matchMap().surfaces(level).selectedCount());
     const auto actual = static_cast<double>(random.matchMap().surfaces(level).selectedCount());
-    RecordProperty("edges_" + std::to_string(level), static_cast<int>(expected));
+    RecordProperty("sparse_" + std::to_string(level), static_cast<int>(expected));
     RecordProperty("random_" + std::to_string(level), static_cast<int>(actual));
     EXPECT_NEAR(expected, actual, 3 * std::sqrt(expected)) << level;
     const AccumulatedCells cells = accumulate(scans, level);
@@ -289,17 +289,17 @@ TEST(Representations, RandomSelectsAsManyAsEdges) {
   }
 }
 
-TEST(Representations, EdgesPackSmallerThanAll) {
+TEST(Representations, SparsePacksSmallerThanAll) {
   const auto scans = randomScans(14, 5);
-  const MapBuilder edges = mapOf(scans, withRepresentation(Representation::kEdges));
+  const MapBuilder sparse = mapOf(scans, withRepresentation(Representation::kSparse));
   const MapBuilder all = mapOf(scans, withRepresentation(Representation::kAll));
   const double ratio =
-      static_cast<double>(all.packedBytes()) / static_cast<double>(edges.packedBytes());
-  RecordProperty("all_to_edges", std::to_string(ratio));
-  RecordProperty("packed_of_held", std::to_string(static_cast<double>(edges.packedBytes()) /
-                                                  static_cast<double>(edges.bytes())));
+      static_cast<double>(all.packedBytes()) / static_cast<double>(sparse.packedBytes());
+  RecordProperty("all_to_sparse", std::to_string(ratio));
+  RecordProperty("packed_of_held", std::to_string(static_cast<double>(sparse.packedBytes()) /
+                                                  static_cast<double>(sparse.bytes())));
   EXPECT_GT(ratio, 1.2);
-  EXPECT_LT(edges.packedBytes(), edges.bytes() / 4);
+  EXPECT_LT(sparse.packedBytes(), sparse.bytes() / 4);
 }
 
 TEST(Clear, ReturnsToANewMap) {

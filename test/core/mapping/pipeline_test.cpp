@@ -71,7 +71,7 @@ TEST_P(Building, TwelveSecondsAreMapped) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Representations, Building,
-                         ::testing::Values(Representation::kEdges, Representation::kAll));
+                         ::testing::Values(Representation::kSparse, Representation::kAll));
 
 TEST(Corridor, FifteenSecondsAreMapped) {
   const Walk walk = simulateWalk(sim::WorldName::Corridor, "16", 0, 150);
