@@ -87,7 +87,7 @@ const MapBuilder& street(size_t voxels) {
   static std::map<size_t, MapBuilder> made;
   const auto known = made.find(voxels);
   if (known != made.end()) return known->second;
-  MapBuilder map(kVoxelSize, Config{}.matcher.coarsest_voxel, {}, {}, 1);
+  MapBuilder map(kVoxelSize, {}, {}, 1);
   for (int tile = 0; map.hitVoxels().voxelCount() < voxels; ++tile) {
     std::vector<Eigen::Vector3d> centres = streetTile(tile, kVoxelSize);
     centres.resize(std::min(centres.size(), voxels - map.hitVoxels().voxelCount()));

@@ -17,7 +17,7 @@ using benchmark::State;
 MapBuilder mapOf(const Sequence& s, size_t scans, int clear_after = 0) {
   MapConfig config = s.config.map;
   config.clear_after = clear_after;
-  MapBuilder map(s.config.voxel_size, s.config.matcher.coarsest_voxel, config, s.config.edges, 1);
+  MapBuilder map(s.config.voxel_size, config, s.config.edges, 1);
   for (size_t i = 0; i < scans; ++i) map.insert(s.centroids[i], s.poses[i].translation());
   map.label();
   return map;

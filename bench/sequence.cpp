@@ -109,7 +109,7 @@ void placeInMap(Sequence& sequence) {
 Sequence make(const Source& source) {
   Sequence sequence;
   sequence.config.voxel_size = source.voxel_size;
-  sequence.config.matcher.coarsest_voxel = source.coarsest_voxel;
+  sequence.config.map.coarsest_voxel = source.coarsest_voxel;
   sequence.clouds = source.sensor != nullptr ? simulate(source) : readBag(source);
   if (sequence.size() < kScans) {
     throw std::runtime_error(std::string(source.name) + " has fewer than " +

@@ -49,7 +49,8 @@ struct EdgeConfig {
 
 struct MapConfig {
   Representation representation = Representation::kSparse;
-  int min_hits = 2;     ///< scans that must have hit a voxel for it to count as occupied
+  int min_hits = 2;             ///< scans that must have hit a voxel for it to count as occupied
+  double coarsest_voxel = 6.4;  ///< of the search, rounded to voxel_size * 2^k [m]
   int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
   int label_every = 5;  ///< scans between two labellings
   int clear_after = 0;  ///< scans that see through a voxel unhit before it leaves, 0: off
@@ -60,7 +61,6 @@ struct MapConfig {
 
 struct MatcherConfig {
   MatcherMode mode = MatcherMode::kRefined;
-  double coarsest_voxel = 6.4;  ///< of the search, rounded to voxel_size * 2^k [m]
   int search_points = 1000;
   int refine_points = 3000;  ///< of those with a voxel of the map beside them
   int restart_points = 300;

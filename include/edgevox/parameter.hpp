@@ -25,6 +25,7 @@ struct Parameter {
   double max = 0.0;
   std::string unit;
   std::string meaning;
+  std::string former_name{};  ///< not known any more, for nearestName(); or empty
 };
 
 struct ConfigError : std::invalid_argument {
@@ -40,7 +41,8 @@ void checkRange(const Parameter& parameter);
 /// The shortest text that assign() turns back into the same value.
 std::string valueText(const Parameter& parameter);
 
-/// For "did you mean": the name most like `name` in the list, which must not be empty.
+/// For "did you mean": the name of the parameter that was called `name`, else the one most like it
+/// in the list, which must not be empty.
 std::string nearestName(const std::vector<Parameter>& parameters, const std::string& name);
 
 }  // namespace edgevox

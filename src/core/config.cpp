@@ -54,6 +54,9 @@ std::vector<Parameter> parametersOf(Config& c) {
        "voxels that scans are aligned to: planar anchors and, where these are missing, edges; all; "
        "or as many as of the first by chance"},
       {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},
+      {"map/coarsest_voxel", &c.map.coarsest_voxel, 0.1, 100, "m",
+       "largest voxel of the search: how far from the prediction a pose is found",
+       "matcher/coarsest_voxel"},
       {"map/anchors", &c.map.anchors, 0, 1000, "",
        "planar voxels of each of three directions that scans are aligned to in a cube of 16 "
        "voxels"},
@@ -70,8 +73,6 @@ std::vector<Parameter> parametersOf(Config& c) {
        "ones are added"},
       {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
        "'published' is hill climbing alone, for comparison"},
-      {"matcher/coarsest_voxel", &c.matcher.coarsest_voxel, 0.1, 100, "m",
-       "largest voxel of the search: how far from the prediction a pose is found"},
       {"matcher/search_points", &c.matcher.search_points, 50, kMaxCount, "",
        "points of a scan in the search"},
       {"matcher/refine_points", &c.matcher.refine_points, 50, kMaxCount, "",

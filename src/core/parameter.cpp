@@ -105,6 +105,9 @@ std::string valueText(const Parameter& p) {
 }
 
 std::string nearestName(const std::vector<Parameter>& parameters, const std::string& name) {
+  const auto renamed = std::find_if(parameters.begin(), parameters.end(),
+                                    [&](const Parameter& p) { return p.former_name == name; });
+  if (renamed != parameters.end()) return renamed->name;
   const auto distance = [&](const Parameter& p) {
     const size_t slash = p.name.find('/');
     const std::string group = p.name.substr(0, slash);

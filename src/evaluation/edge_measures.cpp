@@ -154,7 +154,9 @@ struct LabelledMap {
 LabelledMap buildMap(const Recording& recording, const Config& config, double voxel_size,
                      const Pose& T_map_grid) {
   Voxelizer voxelizer(config.voxelizer, voxel_size);
-  MapBuilder map(voxel_size, kMapLevels * voxel_size, config.map, config.edges, 1);
+  MapConfig map_config = config.map;
+  map_config.coarsest_voxel = kMapLevels * voxel_size;
+  MapBuilder map(voxel_size, map_config, config.edges, 1);
   LabelledMap labelled;
   const Pose T_grid_map = T_map_grid.inverse();
   for (size_t i = 0; i < recording.scans.size(); ++i) {

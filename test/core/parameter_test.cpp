@@ -14,7 +14,7 @@ struct Values {
 };
 
 std::vector<Parameter> listOf(Values& v) {
-  return {{"group/length", &v.length, 0, 10, "m", ""},
+  return {{"group/length", &v.length, 0, 10, "m", "", "whole/reach"},
           {"count", &v.count, 1, 5, "", ""},
           {"on", &v.on, 0, 0, "", ""},
           {"name", &v.name, 0, 0, "", ""}};
@@ -75,6 +75,7 @@ TEST(Parameter, theNearestNameIsFound) {
   EXPECT_EQ("group/length", nearestName(listOf(values), "lenght"));
   EXPECT_EQ("group/length", nearestName(listOf(values), "group/len"));
   EXPECT_EQ("count", nearestName(listOf(values), "counts"));
+  EXPECT_EQ("group/length", nearestName(listOf(values), "whole/reach"));
 }
 
 }  // namespace

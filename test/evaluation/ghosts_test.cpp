@@ -41,7 +41,7 @@ SimulatedTruth floorWithBlocks() {
 MapBuilder mapOf(const std::vector<Vector3d>& centroids) {
   MapConfig config;
   config.confirm_within = 0;
-  MapBuilder map(kSize, 0.8, config, {}, 1);
+  MapBuilder map(kSize, config, {}, 1);
   map.add(centroids, Vector3d(0, 0, 5));
   map.add(centroids, Vector3d(0, 0, 5));
   return map;

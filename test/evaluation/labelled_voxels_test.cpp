@@ -101,7 +101,7 @@ TEST(LabelledVoxels, OfTheMapAreItsHitVoxelsAndEdges) {
       }
     }
   }
-  MapBuilder map(kSize, 8 * kSize, MapConfig(), EdgeConfig(), 1);
+  MapBuilder map(kSize, MapConfig(), EdgeConfig(), 1);
   for (int scan = 0; scan < 2; ++scan) map.add(centroids, {50, 50, 50});
   map.label();
   const LabelledVoxels set = labelledVoxels(map, Pose::Identity());

@@ -100,7 +100,7 @@ TEST(MapFiles, failuresHalfWayAreReportedWithTheirReason) {
 TEST(MapFiles, centroidsInTheOrderOfVoxels) {
   MapConfig config;
   config.confirm_within = 0;
-  MapBuilder map(0.1, 3.2, config, EdgeConfig(), 1);
+  MapBuilder map(0.1, config, EdgeConfig(), 1);
   const std::vector<Eigen::Vector3d> centroids = {
       {0.05, 0.05, 0.35}, {0.95, 0.05, 0.05}, {0.07, 0.05, 0.05}, {0.05, 0.35, 0.05}};
   map.insert(centroids, Eigen::Vector3d(0, 0, 5));

@@ -58,6 +58,8 @@ TEST(ConfigFile, unknownNamesGetTheNearest) {
   expectYamlError("threads: 1\nmap:\n  min_hit: 2\n",
                   {"my.yaml, line 3", "'map/min_hit'", "'map/min_hits'"});
   expectYamlError("min_hits: 2\n", {"'min_hits'", "'map/min_hits'"});
+  expectYamlError("matcher:\n  coarsest_voxel: 3.2\n",
+                  {"line 2", "'matcher/coarsest_voxel'", "did you mean 'map/coarsest_voxel'"});
   expectYamlError("matchr:\n  max_restarts: 2\n", {"'matchr'", "'matcher/"});
 }
 

@@ -26,9 +26,8 @@ class MapBuilder {
  public:
   static constexpr int kSurfaceLevels = MatchMap::kSurfaceLevels;
 
-  /// `coarsest_voxel` [m] fixes the number of levels.
-  MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
-             const EdgeConfig& edges, int threads);
+  /// `voxel_size` [m] is that of level 0; map.coarsest_voxel fixes the number of levels.
+  MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges, int threads);
 
   /// add(), then label() when it is due.
   void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
@@ -120,7 +119,6 @@ class MapBuilder {
   }
 
   double voxel_size_;
-  double coarsest_voxel_;
   MapConfig config_;
   EdgeLabeller<16> labeller_;
   int edge_neighbours_;  // see thinEdges()

@@ -47,15 +47,14 @@ size_t blocksWithBits(const BitGrid<8>& grid) {
 
 }  // namespace
 
-MapBuilder::MapBuilder(double voxel_size, double coarsest_voxel, const MapConfig& map,
-                       const EdgeConfig& edges, int threads)
+MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges,
+                       int threads)
     : voxel_size_(voxel_size),
-      coarsest_voxel_(coarsest_voxel),
       config_(map),
       labeller_(mapLabeller(edges, edges.map_support, threads)),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       lone_voxels_(map.confirm_within),
-      match_map_(voxel_size, coarsest_voxel) {
+      match_map_(voxel_size, map.coarsest_voxel) {
   for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
@@ -273,7 +272,7 @@ void MapBuilder::clear() {
   changed_ = {};
   touched_ = {};
   random_share_ = {};
-  match_map_ = MatchMap(voxel_size_, coarsest_voxel_);
+  match_map_ = MatchMap(voxel_size_, config_.coarsest_voxel);
   moments_.clear();
   for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }

@@ -20,9 +20,7 @@ constexpr double kSize = 0.2;      // [m]
 constexpr int kConfirmWithin = 6;  // [scans]
 const Vector3d kLone(30.1, 20.1, 5.1);
 
-MapBuilder makeMap(const MapConfig& config) {
-  return MapBuilder(kSize, 3.2, config, EdgeConfig{}, 1);
-}
+MapBuilder makeMap(const MapConfig& config) { return MapBuilder(kSize, config, EdgeConfig{}, 1); }
 
 MapConfig confirming(int scans) {
   MapConfig config;

@@ -26,8 +26,9 @@ using Eigen::Vector3d;
 constexpr double kSize = kScanMapVoxel;
 constexpr double kCoarsest = 3.2;  // [m]
 
-MapBuilder makeMap(const MapConfig& config, int threads = 1, const EdgeConfig& edges = {}) {
-  return MapBuilder(kSize, kCoarsest, config, edges, threads);
+MapBuilder makeMap(MapConfig config, int threads = 1, const EdgeConfig& edges = {}) {
+  config.coarsest_voxel = kCoarsest;
+  return MapBuilder(kSize, config, edges, threads);
 }
 
 MapConfig withLabelEvery(int scans) {

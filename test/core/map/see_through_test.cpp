@@ -77,7 +77,7 @@ class Scanner {
 MapBuilder mapThatClearsAfter(int scans) {
   MapConfig config;
   config.clear_after = scans;
-  return MapBuilder(kSize, 3.2, config, EdgeConfig{}, 1);
+  return MapBuilder(kSize, config, EdgeConfig{}, 1);
 }
 
 /// Voxels inside the box, clear of the floor that stays.

@@ -23,7 +23,7 @@ namespace {
 using Eigen::Vector3d;
 
 MapBuilder mapOf(const std::vector<Centroids>& scans) {
-  MapBuilder map(kScanMapVoxel, 3.2, MapConfig{}, EdgeConfig{}, 1);
+  MapBuilder map(kScanMapVoxel, MapConfig{}, EdgeConfig{}, 1);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
   map.label();
   return map;
@@ -131,7 +131,7 @@ TEST(Surfaces, OfSelectedVoxelsAreUpToDateAfterEveryScan) {
   const auto scans = randomScans(12, 6);
   MapConfig config;
   config.label_every = 2;
-  MapBuilder map(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
+  MapBuilder map(kScanMapVoxel, config, EdgeConfig{}, 1);
   for (size_t scan = 0; scan < scans.size(); ++scan) {
     map.insert(scans[scan], farSensor());
     const auto so_far = static_cast<std::ptrdiff_t>(scan) + 1;

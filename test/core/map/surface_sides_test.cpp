@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 MapBuilder mapOfAllVoxels() {
   MapConfig config;
   config.representation = Representation::kAll;
-  return MapBuilder(kScanMapVoxel, 3.2, config, EdgeConfig{}, 1);
+  return MapBuilder(kScanMapVoxel, config, EdgeConfig{}, 1);
 }
 
 /// A ceiling between two storeys, seen from above first.

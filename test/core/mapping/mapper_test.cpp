@@ -414,7 +414,7 @@ Turn mapTurn(bool with_times) {
   sensor.columns = 512;
   Config config;
   config.voxel_size = 0.1;
-  config.matcher.coarsest_voxel = 3.2;
+  config.map.coarsest_voxel = 3.2;
   std::vector<Sweep> sweeps;
   for (int i = 0; i < 40; ++i) {
     const double stamp = 0.1 * i;

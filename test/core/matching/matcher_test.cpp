@@ -51,7 +51,7 @@ struct MappedRoom {
   static Config configOf() {
     Config config;
     config.voxel_size = 0.1;
-    config.matcher.coarsest_voxel = 3.2;
+    config.map.coarsest_voxel = 3.2;
     return config;
   }
 
@@ -62,9 +62,7 @@ struct MappedRoom {
   Pose truth = poseOf({0.55, -0.4, 0.1}, 0.7);
   ScanSample sample;
 
-  MappedRoom()
-      : config(configOf()),
-        builder(config.voxel_size, config.matcher.coarsest_voxel, config.map, config.edges, 1) {
+  MappedRoom() : config(configOf()), builder(config.voxel_size, config.map, config.edges, 1) {
     Random random(3);
     for (uint32_t i = 0; i < 20; ++i) {
       const Vector3d position{random.uniform(-2, 2), random.uniform(-1.5, 1.5),
