@@ -58,7 +58,7 @@ Grid occupiedOf(const VoxelScan& scan) {
 
 /// The thresholds of the default mode, for a tensor in which a plane has 2^19.
 kernel::DenseThresholds denseThresholds(const EdgeConfig& config) {
-  return {std::ldexp(config.magnitude, 19), config.ratio / (1.0 + config.ratio), false};
+  return {std::ldexp(config.magnitude, 19), config.scan.ratio / (1.0 + config.scan.ratio), false};
 }
 
 void labelDense(const Grid& grid, const VoxelIndex& block, const uint32_t* targets, uint32_t* edges,
@@ -99,11 +99,13 @@ EdgeConfig with(EdgeConfig config, InstructionSet instruction_set) {
   return config;
 }
 
+EdgeThresholds withoutSupport(const Sequence& s) { return {s.config.edges.scan.ratio, 0.0}; }
+
 /// Labels of one scan's blocks without the support filter, by the fast kernel.
 void labelFast(State& state, const std::string& name, InstructionSet instruction_set) {
   const Sequence& s = sequence(name);
   const Grid occupied = occupiedOf(s.scans[s.sample()]);
-  const EdgeLabeller<16> labeller(with(s.config.edges, instruction_set), 0.0, 1);
+  const EdgeLabeller<16> labeller(with(s.config.edges, instruction_set), withoutSupport(s), 1);
   Grid edges;
   for (auto _ : state) labeller.label(occupied, occupied, edges);
   countItems(state, occupied.voxelCount());
@@ -117,7 +119,7 @@ void labelPlain(State& state, const std::string& name, const LabelBlock& labelBl
   Grid edges;
   for (auto _ : state) labelBlocks(occupied, s.config.edges, labelBlock, edges);
   Grid expected;
-  EdgeLabeller<16>(s.config.edges, 0.0, 1).label(occupied, occupied, expected);
+  EdgeLabeller<16>(s.config.edges, withoutSupport(s), 1).label(occupied, occupied, expected);
   state.counters["different_labels"] = static_cast<double>(countDifferences(edges, expected));
   countItems(state, occupied.voxelCount());
 }

@@ -34,16 +34,18 @@ struct VoxelizerConfig {
   int max_voxels = 300000;   ///< of a scan
 };
 
+/// What is an edge in occupancy of a certain density.
+struct EdgeThresholds {
+  double ratio = 0.0;    ///< least middle / largest eigenvalue of the structure tensor
+  double support = 0.0;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
+};
+
 struct EdgeConfig {
   EdgeMode mode = EdgeMode::kDefault;
-  double magnitude = 0.10;     ///< least middle eigenvalue, of a plane's largest
-  double ratio = 0.10;         ///< least middle / largest eigenvalue, in one scan
-  double scan_support = 0.35;  ///< least eigenvalue of the neighbours' covariance [voxel^2], 0: off
-  /// On accumulated occupancy, which is denser than a scan's: the last two again, and how many of
-  /// its 26 neighbours an edge needs that are edges by these thresholds, 0: off
-  double map_ratio = 0.15;
-  double map_support = 0.5;
-  int map_neighbours = 8;
+  double magnitude = 0.10;  ///< least middle eigenvalue, of a plane's largest
+  EdgeThresholds scan{0.10, 0.35};
+  EdgeThresholds map{0.15, 0.5};  ///< of accumulated occupancy, which is denser than a scan's
+  int map_neighbours = 8;  ///< edges among its 26 neighbours that one of the map needs, 0: off
   InstructionSet instruction_set = InstructionSet::kAuto;
 };
 

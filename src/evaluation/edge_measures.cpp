@@ -39,7 +39,7 @@ constexpr Method kMethods[] = {
 
 EdgeConfig configOf(const Method& method, EdgeConfig config) {
   config.mode = method.mode;
-  if (!method.support) config.scan_support = 0.0;
+  if (!method.support) config.scan.support = 0.0;
   return config;
 }
 

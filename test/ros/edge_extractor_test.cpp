@@ -81,8 +81,8 @@ class EdgeExtractorTest : public NodeletTest {
 };
 
 TEST_F(EdgeExtractorTest, MarksTheEdgesThatTheCoreFinds) {
-  config_.edges.ratio = 0.2;
-  setParameter("edge_extractor", "edges/ratio", 0.2);
+  config_.edges.scan.ratio = 0.2;
+  setParameter("edge_extractor", "edges/scan_ratio", 0.2);
   setParameter("edge_extractor", "threads", 2);
   start();
   EdgeExtractor extractor(config_.edges, 1);
@@ -106,9 +106,9 @@ TEST_F(EdgeExtractorTest, LeavesTheRestOfTheMessageAlone) {
   const VoxelScanStamped sent = messageOf(scans()[2]);
   VoxelScanStamped message = edgesOf(sent);
   auto settings = settingsOf(sent);
-  for (const char* setting :
-       {"edges/mode=default", "edges/magnitude=0.1", "edges/ratio=0.1", "edges/scan_support=0.35",
-        "edges/map_ratio=0.15", "edges/map_support=0.5", "edges/map_neighbours=8"}) {
+  for (const char* setting : {"edges/mode=default", "edges/magnitude=0.1", "edges/scan_ratio=0.1",
+                              "edges/scan_support=0.35", "edges/map_ratio=0.15",
+                              "edges/map_support=0.5", "edges/map_neighbours=8"}) {
     settings.push_back(setting);
   }
   EXPECT_EQ(settings, settingsOf(message));
@@ -181,10 +181,10 @@ TEST_F(EdgeExtractorTest, RefusesScansOfAnotherConfigurationAndNamesTheParameter
   coarse.voxel_size = std::numeric_limits<double>::quiet_NaN();
   expectNothingOf(coarse);
   other = {};
-  other.edges.ratio = 0.3;
+  other.edges.scan.ratio = 0.3;
   VoxelScanStamped marked = messageOf(scans()[0]);
   addSettings(other, {"edges/"}, marked);
-  expectRefused(marked, {"'edges/ratio' is 0.3", "here it is 0.1"});
+  expectRefused(marked, {"'edges/scan_ratio' is 0.3", "here it is 0.1"});
   VoxelScanStamped future = messageOf(scans()[0]);
   future.settings.emplace_back().name = "voxelizer/stride";
   expectNothingOf(future);

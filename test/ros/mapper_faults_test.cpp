@@ -117,14 +117,14 @@ TEST_F(FaultsTest, ImpossibleVoxelsAreLeftOut) {
 
 TEST_F(FaultsTest, ScansOfAnotherConfigurationAreRefused) {
   Config ratio;
-  ratio.edges.ratio = 0.25;
+  ratio.edges.scan.ratio = 0.25;
   VoxelScanStamped other_edges = shifted(4, 0.05);
   other_edges.settings.clear();
   addSettings(ratio, {"voxel_size", "voxelizer/", "edges/"}, other_edges);
   VoxelScanStamped again = other_edges;
   again.header.stamp = stampAfter(11, 0.05);
   expectWithout({{0, other_edges}, {5, other_edges}, {12, again}}, "config_mismatch",
-                {"'edges/ratio' is 0.25", "here it is 0.1", "the same configuration"});
+                {"'edges/scan_ratio' is 0.25", "here it is 0.1", "the same configuration"});
   VoxelScanStamped coarse = shifted(kScans - 1, 0.1);
   coarse.settings.clear();
   coarse.voxel_size = 0.2;

@@ -68,7 +68,7 @@ class SaveTest : public MapperTest {
 TEST_F(SaveTest, WritesTheFilesOfMapBag) {
   Config config;
   config.map.min_hits = 3;
-  config.edges.map_support = 0.4;
+  config.edges.map.support = 0.4;
   setParameter("mapper", "map/min_hits", 3);
   setParameter("mapper", "edges/map_support", 0.4);
   setParameter("mapper", "threads", 2);

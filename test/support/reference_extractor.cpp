@@ -155,14 +155,13 @@ bool ReferenceExtractor::isSparse(const VoxelIndex& v) const {
   return positiveEigenvalues(fixedPoint(0.1, 15) * IntegerMatrix::Identity() - tensor) == 3;
 }
 
-bool ReferenceExtractor::isEdge(const VoxelIndex& v, const EdgeConfig& config,
-                                double support) const {
+bool ReferenceExtractor::isEdge(const VoxelIndex& v, double magnitude,
+                                const EdgeThresholds& thresholds) const {
   const IntegerMatrix tensor = structureTensor(v).unaryExpr(&sixteenth);
-  const int64_t rho = fixedPoint(config.ratio / (1.0 + config.ratio), 16);
-  const int64_t threshold =
-      std::max(fixedPoint(config.magnitude, 15), rho * tensor.trace() / 65536);
+  const int64_t rho = fixedPoint(thresholds.ratio / (1.0 + thresholds.ratio), 16);
+  const int64_t threshold = std::max(fixedPoint(magnitude, 15), rho * tensor.trace() / 65536);
   if (positiveEigenvalues(tensor - threshold * IntegerMatrix::Identity()) < 2) return false;
-  return support == 0.0 || isSupported(v, support);
+  return thresholds.support == 0.0 || isSupported(v, thresholds.support);
 }
 
 const Eigen::Vector3d& ReferenceExtractor::paperGradient(const VoxelIndex& cell) const {
@@ -203,8 +202,9 @@ std::vector<VoxelIndex> ReferenceExtractor::select(
   return out;
 }
 
-std::vector<VoxelIndex> ReferenceExtractor::edges(const EdgeConfig& config, double support) const {
-  return select([&](const VoxelIndex& v) { return isEdge(v, config, support); });
+std::vector<VoxelIndex> ReferenceExtractor::edges(double magnitude,
+                                                  const EdgeThresholds& thresholds) const {
+  return select([&](const VoxelIndex& v) { return isEdge(v, magnitude, thresholds); });
 }
 
 std::vector<VoxelIndex> ReferenceExtractor::paperEdges() const {
@@ -224,11 +224,11 @@ std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates,
   return thinned;
 }
 
-std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit, EdgeConfig config) {
+std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit,
+                                       const EdgeConfig& config) {
   const auto occupied = gridOf<32>(hit);
   BitGrid<32> candidates;
-  config.ratio = config.map_ratio;
-  EdgeLabeller<32>(config, config.map_support, 1).label(occupied, occupied, candidates);
+  EdgeLabeller<32>(config, config.map, 1).label(occupied, occupied, candidates);
   const bool paper = config.mode == EdgeMode::kPaper;
   return thinnedAtOnce(voxelsOf(candidates), paper ? 0 : config.map_neighbours);
 }

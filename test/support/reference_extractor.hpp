@@ -41,13 +41,13 @@ class ReferenceExtractor {
 
   /// The default mode: the tensor in 16ths, rounded down; thresholds rounded to 2^-15 of a plane
   /// (magnitude), 2^-16 (rho) and 2^-10 voxel^2 (support).
-  bool isEdge(const VoxelIndex& v, const EdgeConfig& config, double support) const;
+  bool isEdge(const VoxelIndex& v, double magnitude, const EdgeThresholds& thresholds) const;
   bool isPaperEdge(const VoxelIndex& v) const;
   /// The default mode: no eigenvalue of the tensor in 16ths, rounded down, reaches a tenth of a
   /// plane's, rounded likewise.
   bool isSparse(const VoxelIndex& v) const;
 
-  std::vector<VoxelIndex> edges(const EdgeConfig& config, double support) const;
+  std::vector<VoxelIndex> edges(double magnitude, const EdgeThresholds& thresholds) const;
   std::vector<VoxelIndex> paperEdges() const;
 
  private:
@@ -67,6 +67,7 @@ class ReferenceExtractor {
 std::vector<VoxelIndex> thinnedAtOnce(const std::vector<VoxelIndex>& candidates, int neighbours);
 
 /// The edges of a map with these occupied voxels, by the library's kernel on all of them.
-std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit, EdgeConfig config = {});
+std::vector<VoxelIndex> labelledAtOnce(const std::vector<VoxelIndex>& hit,
+                                       const EdgeConfig& config = {});
 
 }  // namespace edgevox::test

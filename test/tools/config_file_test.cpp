@@ -60,6 +60,7 @@ TEST(ConfigFile, unknownNamesGetTheNearest) {
   expectYamlError("min_hits: 2\n", {"'min_hits'", "'map/min_hits'"});
   expectYamlError("matcher:\n  coarsest_voxel: 3.2\n",
                   {"line 2", "'matcher/coarsest_voxel'", "did you mean 'map/coarsest_voxel'"});
+  expectYamlError("edges: {ratio: 0.2}\n", {"'edges/ratio'", "did you mean 'edges/scan_ratio'"});
   expectYamlError("matchr:\n  max_restarts: 2\n", {"'matchr'", "'matcher/"});
 }
 

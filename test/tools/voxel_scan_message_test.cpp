@@ -113,11 +113,11 @@ TEST(Settings, thatDifferAreNamed) {
   VoxelScanStamped message = makeMessage();
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
   Config other = config;
-  other.edges.ratio = 0.25;
+  other.edges.scan.ratio = 0.25;
   const auto refusal = refusalOf(message, other);
   ASSERT_TRUE(refusal);
   EXPECT_EQ("config_mismatch", refusal->reason);
-  EXPECT_EQ(0U, refusal->text.find("its parameter 'edges/ratio' is 0.1, here it is 0.25;"))
+  EXPECT_EQ(0U, refusal->text.find("its parameter 'edges/scan_ratio' is 0.1, here it is 0.25;"))
       << refusal->text;
   Setting unknown;
   unknown.name = "edges/new";

@@ -18,10 +18,10 @@ class EdgeLabeller {
  public:
   using Grid = BitGrid<kSide>;
 
-  /// `support`: least eigenvalue of the covariance of the occupied positions in the 7^3
-  /// neighbourhood [voxel^2]; 0 switches the filter off. Throws ConfigError when the instruction
-  /// set asked for is not to be had.
-  EdgeLabeller(const EdgeConfig& config, double support, int threads);
+  /// `thresholds` instead of those in `config`. Their support is the covariance of the occupied
+  /// positions in the 7^3 neighbourhood. Throws ConfigError when the instruction set asked for is
+  /// not to be had.
+  EdgeLabeller(const EdgeConfig& config, const EdgeThresholds& thresholds, int threads);
 
   /// How far a change of occupancy changes labels [voxels, in each axis].
   int reach() const;
@@ -33,16 +33,13 @@ class EdgeLabeller {
 
  private:
   EdgeConfig config_;
-  double support_;
+  EdgeThresholds thresholds_;
   int threads_;
 };
 
 extern template class EdgeLabeller<8>;
 extern template class EdgeLabeller<16>;
 extern template class EdgeLabeller<32>;
-
-/// What labels occupancy accumulated from scans; its edges are thinned afterwards.
-EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threads);
 
 /// Structure tensor and support look at several voxels, so edges come as bands: of the
 /// `candidates` among `targets` those become `edges` that have at least `neighbours` other

@@ -12,10 +12,11 @@
 namespace edgevox {
 namespace {
 
-constexpr size_t kFewVoxels = 100;    // a scan of fewer tells nothing
-constexpr double kPause = 3.0;        // between two scans that are counted again [s]
-constexpr double kSeries = 0.05;      // the sizes to choose are this times a power of 2 [m]
-constexpr double kLargestSize = 6.4;  // of the series within the range of voxel_size [m]
+constexpr size_t kFewVoxels = 100;         // a scan of fewer tells nothing
+constexpr double kPause = 3.0;             // between two scans that are counted again [s]
+constexpr double kSeries = 0.05;           // the sizes to choose are this times a power of 2 [m]
+constexpr double kLargestSize = 6.4;       // of the series within the range of voxel_size [m]
+constexpr EdgeThresholds kNoThresholds{};  // what is sparse does not depend on what is an edge
 
 /// The next of the series.
 double roundedUp(double size) {
@@ -59,14 +60,13 @@ std::string textOf(const DensityWarning& warning) {
 }
 
 double sparseShare(const VoxelScan& scan, int doublings, const EdgeConfig& config, int threads) {
-  constexpr double kNoSupport = 0.0;
   BitGrid<16> occupied;
   BitGrid<16> edges;
   EdgeCount count;
   for (const ScanVoxel& voxel : scan.voxels) {
     count.occupied += occupied.set(coarser(voxel.index, 1 + doublings)) ? 1 : 0;
   }
-  EdgeLabeller<16>(config, kNoSupport, threads).label(occupied, occupied, edges, &count.sparse);
+  EdgeLabeller<16>(config, kNoThresholds, threads).label(occupied, occupied, edges, &count.sparse);
   return count.sparseShare();
 }
 

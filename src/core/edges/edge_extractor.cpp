@@ -15,11 +15,12 @@ namespace {
 
 constexpr double kSparse = 0.1;  // of a plane's largest eigenvalue
 
-kernel::Thresholds thresholdsOf(const EdgeConfig& config, double support, bool count_sparse) {
-  const double rho = config.ratio / (1.0 + config.ratio);
-  return {std::llround(config.magnitude * static_cast<double>(kernel::kPlane)),
+kernel::Thresholds thresholdsOf(double magnitude, const EdgeThresholds& thresholds,
+                                bool count_sparse) {
+  const double rho = thresholds.ratio / (1.0 + thresholds.ratio);
+  return {std::llround(magnitude * static_cast<double>(kernel::kPlane)),
           std::llround(std::ldexp(rho, kernel::kRatioBits)),
-          std::llround(std::ldexp(support, kernel::kSupportBits)), false,
+          std::llround(std::ldexp(thresholds.support, kernel::kSupportBits)), false,
           count_sparse ? std::llround(kSparse * static_cast<double>(kernel::kPlane)) : 0};
 }
 
@@ -67,10 +68,10 @@ class BlockLabels {
   using Grid = BitGrid<kSide>;
   using Rows = std::array<uint32_t, BlockLayout<kSide>::kRows>;
 
-  BlockLabels(const EdgeConfig& config, double support, bool count_sparse)
+  BlockLabels(const EdgeConfig& config, const EdgeThresholds& thresholds, bool count_sparse)
       : paper_(config.mode == EdgeMode::kPaper),
         taps_(kernel::paperTaps()),
-        thresholds_(thresholdsOf(config, support, count_sparse)),
+        thresholds_(thresholdsOf(config.magnitude, thresholds, count_sparse)),
         label_block_(chooseKernel(config.instruction_set, kSide)) {
     if (count_sparse) paper_thresholds_.sparse = kSparse * kernel::kPaperPlane;
   }
@@ -159,8 +160,9 @@ bool isAlone(const BitGrid<kSide>& occupied, const VoxelIndex& block, int reach)
 }  // namespace
 
 template <int kSide>
-EdgeLabeller<kSide>::EdgeLabeller(const EdgeConfig& config, double support, int threads)
-    : config_(config), support_(support), threads_(threads) {
+EdgeLabeller<kSide>::EdgeLabeller(const EdgeConfig& config, const EdgeThresholds& thresholds,
+                                  int threads)
+    : config_(config), thresholds_(thresholds), threads_(threads) {
   chooseKernel(config.instruction_set, kSide);
 }
 
@@ -177,7 +179,7 @@ void EdgeLabeller<kSide>::label(const Grid& occupied, const Grid& targets, Grid&
     edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
   }
   std::vector<size_t> sparse_of_block(targets.blockCount());
-  const BlockLabels<kSide> labels(config_, support_, sparse != nullptr);
+  const BlockLabels<kSide> labels(config_, thresholds_, sparse != nullptr);
   const LoneLabel lone(labels);
   const int reach = this->reach();
 
@@ -205,12 +207,6 @@ template class EdgeLabeller<8>;
 template class EdgeLabeller<16>;
 template class EdgeLabeller<32>;
 
-EdgeLabeller<16> mapLabeller(const EdgeConfig& config, double support, int threads) {
-  EdgeConfig of_map = config;
-  of_map.ratio = config.map_ratio;
-  return {of_map, support, threads};
-}
-
 template <int kSide>
 void thinEdges(const BitGrid<kSide>& candidates, const BitGrid<kSide>& targets, int neighbours,
                BitGrid<kSide>& edges) {
@@ -232,7 +228,7 @@ template void thinEdges<16>(const BitGrid<16>&, const BitGrid<16>&, int, BitGrid
 template void thinEdges<32>(const BitGrid<32>&, const BitGrid<32>&, int, BitGrid<32>&);
 
 EdgeExtractor::EdgeExtractor(const EdgeConfig& config, int threads)
-    : labeller_(config, config.scan_support, threads) {}
+    : labeller_(config, config.scan, threads) {}
 
 EdgeCount EdgeExtractor::extract(VoxelScan& scan) {
   occupied_.clear();

@@ -15,7 +15,7 @@ constexpr int kNeighbours = 5;  // a window is thinner than the map, and so are 
 // A window has thick walls as the map, but the gaps of scans.
 RecentEdges::RecentEdges(double voxel_size, const EdgeConfig& config, int scans, int threads)
     : voxel_size_(voxel_size),
-      labeller_(mapLabeller(config, config.scan_support, threads)),
+      labeller_(config, {config.map.ratio, config.scan.support}, threads),
       neighbours_(config.mode == EdgeMode::kPaper ? 0 : kNeighbours),
       window_(static_cast<size_t>(scans)) {}
 

@@ -51,7 +51,7 @@ MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig
                        int threads)
     : voxel_size_(voxel_size),
       config_(map),
-      labeller_(mapLabeller(edges, edges.map_support, threads)),
+      labeller_(edges, edges.map, threads),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       lone_voxels_(map.confirm_within),
       match_map_(voxel_size, map.coarsest_voxel) {

@@ -24,7 +24,7 @@ const EdgeConfig kPaper = [] {
 BitGrid<16> edgesOf(const Scene& scene, const EdgeConfig& config, double support) {
   const auto occupied = gridOf<16>(scene.voxels);
   BitGrid<16> edges;
-  EdgeLabeller<16>(config, support, 1).label(occupied, occupied, edges);
+  EdgeLabeller<16>(config, {config.scan.ratio, support}, 1).label(occupied, occupied, edges);
   return edges;
 }
 
@@ -175,7 +175,7 @@ TEST(Thinning, IsThatOfEachVoxelByItself) {
 BitGrid<16> mapEdgesOf(const Scene& scene) {
   const auto occupied = gridOf<16>(scene.voxels);
   BitGrid<16> candidates, edges;
-  mapLabeller(kDefaults, kDefaults.map_support, 1).label(occupied, occupied, candidates);
+  EdgeLabeller<16>(kDefaults, kDefaults.map, 1).label(occupied, occupied, candidates);
   thinEdges(candidates, occupied, kDefaults.map_neighbours, edges);
   return edges;
 }
@@ -338,7 +338,7 @@ VoxelScan scanOf(const Voxels& voxels, Random& random) {
 }
 
 void expectFlagsOfTheirMapVoxels(EdgeExtractor& extractor, const Scene& scene, Random& random) {
-  const auto edges = edgesOf(scene, kDefaults, kDefaults.scan_support);
+  const auto edges = edgesOf(scene, kDefaults, kDefaults.scan.support);
   VoxelScan scan = scanOf(scene.voxels, random);
   for (ScanVoxel& voxel : scan.voxels) voxel.edge = random.chance(0.5);  // must be overwritten
   const EdgeCount count = extractor.extract(scan);
@@ -384,8 +384,9 @@ TEST(Extractor, LabelsVoxelsThatStandAloneByTheDefinition) {
       Scene scene;
       scene.voxels = scatteredVoxels(random);
       const ReferenceExtractor reference(scene.voxels);
-      const Voxels expected =
-          mode == EdgeMode::kPaper ? reference.paperEdges() : reference.edges(config, support);
+      const Voxels expected = mode == EdgeMode::kPaper
+                                  ? reference.paperEdges()
+                                  : reference.edges(config.magnitude, {config.scan.ratio, support});
       EXPECT_TRUE(sameVoxels(expected, voxelsOf(edgesOf(scene, config, support))));
       if (mode == EdgeMode::kDefault && support == kNoSupport) EXPECT_GT(expected.size(), 20U);
     }

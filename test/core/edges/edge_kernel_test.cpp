@@ -24,7 +24,7 @@ template <int kSide = 16>
 Voxels labelled(const Voxels& occupied, const EdgeConfig& config, double support, int threads = 1) {
   const auto grid = gridOf<kSide>(occupied);
   BitGrid<kSide> edges;
-  EdgeLabeller<kSide>(config, support, threads).label(grid, grid, edges);
+  EdgeLabeller<kSide>(config, {config.scan.ratio, support}, threads).label(grid, grid, edges);
   return voxelsOf(edges);
 }
 
@@ -79,7 +79,8 @@ void expectReferenceLabels(const EdgeConfig& config, double support, uint32_t se
   size_t edges = 0;
   size_t occupied = 0;
   for (const auto& [name, voxels] : variedOccupancy(seed)) {
-    const Voxels expected = ReferenceExtractor(voxels).edges(config, support);
+    const Voxels expected =
+        ReferenceExtractor(voxels).edges(config.magnitude, {config.scan.ratio, support});
     EXPECT_TRUE(sameVoxels(expected, labelled(voxels, config, support))) << name;
     edges += expected.size();
     occupied += voxels.size();
@@ -119,10 +120,10 @@ TEST(DefaultMode, EqualsTheReferenceWithSupport) {
 TEST(DefaultMode, EqualsTheReferenceAtOtherThresholds) {
   EdgeConfig config;
   config.magnitude = 0.3;
-  config.ratio = 0.01;
+  config.scan.ratio = 0.01;
   expectReferenceLabels(config, 0.0, 6);
   config.magnitude = 0.02;
-  config.ratio = 0.35;
+  config.scan.ratio = 0.35;
   expectReferenceLabels(config, 0.3, 7);
 }
 
@@ -148,7 +149,7 @@ TEST(PaperMode, UsesNeitherSupportNorThresholds) {
   const Voxels voxels = planeScene(random, 30, 0.3).voxels;
   EdgeConfig other = paperMode();
   other.magnitude = 0.5;
-  other.ratio = 0.5;
+  other.scan.ratio = 0.5;
   const Voxels edges = labelled(voxels, paperMode(), 0.0);
   EXPECT_FALSE(edges.empty());
   EXPECT_TRUE(sameVoxels(edges, labelled(voxels, other, 0.75)));
@@ -159,7 +160,7 @@ size_t sparseCount(const Voxels& voxels, const EdgeConfig& config, int threads =
   const auto grid = gridOf<kSide>(voxels);
   BitGrid<kSide> edges;
   size_t sparse = 12345;  // must be overwritten
-  EdgeLabeller<kSide>(config, 0.3, threads).label(grid, grid, edges, &sparse);
+  EdgeLabeller<kSide>(config, {config.scan.ratio, 0.3}, threads).label(grid, grid, edges, &sparse);
   EXPECT_TRUE(sameVoxels(labelled<kSide>(voxels, config, 0.3), voxelsOf(edges)));
   return sparse;
 }
@@ -181,7 +182,7 @@ TEST(Sparse, EqualsTheReference) {
   size_t occupied = 0;
   EdgeConfig other;  // the share does not depend on what an edge is
   other.magnitude = 0.3;
-  other.ratio = 0.01;
+  other.scan.ratio = 0.01;
   for (const auto& [name, voxels] : sparseOccupancy(18)) {
     const ReferenceExtractor reference(voxels);
     const auto expected = static_cast<size_t>(std::count_if(
@@ -249,7 +250,7 @@ void expectSameLabelsWithAvx2(const Voxels& voxels) {
 
 TEST(Independence, OfTheInstructionSet) {
   try {
-    EdgeLabeller<16>(withInstructionSet(InstructionSet::kAvx2), 0.0, 1);
+    EdgeLabeller<16>(withInstructionSet(InstructionSet::kAvx2), {}, 1);
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string::npos, std::string(error.what()).find("edges/instruction_set"));
     GTEST_SKIP() << error.what();
@@ -302,7 +303,8 @@ TEST(Targets, OtherLabelsStay) {
   Voxels targets, others;
   for (const VoxelIndex& v : voxels) (random.chance(0.5) ? targets : others).push_back(v);
   auto edges = gridOf<16>(voxels);  // all of them, to begin with
-  EdgeLabeller<16>({}, 0.3, 1).label(occupied, gridOf<16>(targets), edges);
+  EdgeLabeller<16>({}, {EdgeConfig{}.scan.ratio, 0.3}, 1)
+      .label(occupied, gridOf<16>(targets), edges);
 
   const auto truth = gridOf<16>(labelled(voxels, {}, 0.3));
   for (const VoxelIndex& v : targets) ASSERT_EQ(truth.test(v), edges.test(v));
@@ -327,7 +329,7 @@ int farthestChange(const EdgeConfig& config, const Voxels& voxels, int32_t Voxel
 TEST(Reach, IsHowFarAChangeActs) {
   Random random(16);
   for (const EdgeConfig& config : {EdgeConfig{}, paperMode()}) {
-    const int reach = EdgeLabeller<16>(config, 0.3, 1).reach();
+    const int reach = EdgeLabeller<16>(config, config.scan, 1).reach();
     int farthest = 0;
     for (int i = 0; i < 3; ++i) {
       const Voxels voxels = randomCloud(random, 32, 0.2);
@@ -371,7 +373,7 @@ Voxels labelledDense(const Voxels& voxels, const kernel::DenseThresholds& thresh
 TEST(DenseKernel, AgreesWithTheIntegerKernelOnIntegerTaps) {
   const EdgeConfig config;
   const kernel::DenseThresholds thresholds{config.magnitude * (1 << 19),
-                                           config.ratio / (1.0 + config.ratio), false};
+                                           config.scan.ratio / (1.0 + config.scan.ratio), false};
   size_t compared = 0;
   size_t near = 0;
   for (const auto& [name, voxels] : variedOccupancy(17)) {

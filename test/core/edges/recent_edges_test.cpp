@@ -34,12 +34,12 @@ Voxels joined(const std::vector<Voxels>& scans) {
 }
 
 /// By the definition, on the union of the scans.
-Voxels expectedEdges(const std::vector<Voxels>& scans, EdgeConfig config = {}) {
+Voxels expectedEdges(const std::vector<Voxels>& scans, const EdgeConfig& config = {}) {
   const ReferenceExtractor reference(joined(scans));
   const bool paper = config.mode == EdgeMode::kPaper;
-  config.ratio = config.map_ratio;
+  const EdgeThresholds thresholds{config.map.ratio, config.scan.support};
   const Voxels candidates =
-      paper ? reference.paperEdges() : reference.edges(config, config.scan_support);
+      paper ? reference.paperEdges() : reference.edges(config.magnitude, thresholds);
   const auto edges = gridOf<16>(thinnedAtOnce(candidates, paper ? 0 : kNeighbours));
   Voxels of_last;
   for (const VoxelIndex& v : scans.back()) {
