@@ -43,10 +43,8 @@ struct Run {
 Run runThrough(const Recording& recording, Pipeline& pipeline) {
   Run run;
   for (const RecordedScan& recorded : recording.scans) {
-    const PipelineResult result = pipeline.process(recorded.view);
-    const ScanResult& scan = result.scan;
-    run.milliseconds.push_back(1e3 * (result.voxelize + result.extract + scan.times.match +
-                                      scan.times.insert + scan.times.label));
+    const ScanResult scan = pipeline.process(recorded.view).scan;
+    run.milliseconds.push_back(1e3 * static_cast<double>(scan.times.total()));
     run.fallback += scan.status == ScanStatus::kFallback ? 1 : 0;
     run.lost += scan.located() ? 0 : 1;
     run.poses.push_back(scan.located() ? std::optional<Pose>(scan.T_map_sensor) : std::nullopt);

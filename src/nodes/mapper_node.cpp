@@ -104,8 +104,7 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
   if (result.located()) publishScanEdges(scan.header.stamp);
   ScanReport report = reportOn(scan, result);
   report.latency = latencyOf(scan);
-  const double total = static_cast<double>(report.voxelize + report.extract + report.match +
-                                           report.insert + report.label);
+  const auto total = static_cast<double>(timesOf(report).total());
   run_.time_field = scan.time_field;
   run_.add(scan.number, toPipelineResult(scan, result), transforms.T_base_sensor, total,
            static_cast<double>(report.latency));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/mapper_status.hpp"
 
+#include "nodes/scan_report.hpp"
+
 namespace edgevox {
 namespace {
 
@@ -14,9 +16,10 @@ void MapperStatus::add(const ScanReport& report) {
   ++counts_[report.status];
   not_located_in_a_row_ = report.located ? 0 : not_located_in_a_row_ + 1;
   if (!report.located) return;
-  const std::array<float, kStageNames.size()> seconds = {report.voxelize, report.extract,
-                                                         report.match, report.insert, report.label};
-  for (size_t i = 0; i < seconds.size(); ++i) times_[i].add(static_cast<double>(seconds[i]));
+  const StageTimes times = timesOf(report);
+  for (size_t i = 0; i < kStages.size(); ++i) {
+    times_[i].add(static_cast<double>(times.*kStages[i].time));
+  }
   if (report.latency > 0) latency_.add(static_cast<double>(report.latency));
 }
 
@@ -64,7 +67,7 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("centroids past map/memory, left out", map.centroidsPastMemory());
   status.add("clouds refused before", last_.refused);
   status.add("scans dropped in all", last_.dropped);
-  for (size_t i = 0; i < times_.size(); ++i) addTimes(kStageNames[i], times_[i], status);
+  for (size_t i = 0; i < times_.size(); ++i) addTimes(kStages[i].name, times_[i], status);
   addTimes("latency", latency_, status);
 }
 

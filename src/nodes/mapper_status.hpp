@@ -9,8 +9,8 @@
 #include <string>
 
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/stage_times.hpp"
 #include "nodes/diagnostics.hpp"
-#include "run/run_record.hpp"
 
 namespace edgevox {
 
@@ -34,7 +34,7 @@ class MapperStatus {
   std::map<std::string, uint64_t> counts_;  // scans by status
   std::string transform_error_;
   std::string odometry_error_;
-  std::array<RollingTimes, kStageNames.size()> times_;
+  std::array<RollingTimes, kStages.size()> times_;  // of the stages
   RollingTimes latency_;
   uint64_t dropped_told_ = 0;
 };

@@ -28,6 +28,10 @@ ScanReport reportOn(const VoxelScanStamped& scan) {
 
 }  // namespace
 
+StageTimes timesOf(const ScanReport& report) {
+  return {report.voxelize, report.extract, report.match, report.insert, report.label};
+}
+
 std::string adviceOn(const ScanResult& result) {
   switch (result.status) {
     case ScanStatus::kLost:
@@ -61,8 +65,8 @@ PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& 
   all.dropped = {scan.points_not_finite, scan.points_too_near, scan.points_too_far,
                  scan.point_times_ignored};
   all.edges = {scan.occupied_voxels, scan.edge_voxels, scan.sparse_voxels};
-  all.voxelize = static_cast<double>(scan.voxelize_seconds);
-  all.extract = static_cast<double>(scan.extract_seconds);
+  all.scan.times.voxelize = scan.voxelize_seconds;
+  all.scan.times.extract = scan.extract_seconds;
   return all;
 }
 
@@ -75,9 +79,9 @@ ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
   report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);
   report.matches = result.matches;
   report.restarts = result.restarts;
-  report.match = static_cast<float>(result.times.match);
-  report.insert = static_cast<float>(result.times.insert);
-  report.label = static_cast<float>(result.times.label);
+  report.match = result.times.match;
+  report.insert = result.times.insert;
+  report.label = result.times.label;
   return report;
 }
 

@@ -8,9 +8,12 @@
 
 #include "edgevox/mapping/mapper.hpp"
 #include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/stage_times.hpp"
 #include "ros/scan_transforms.hpp"
 
 namespace edgevox {
+
+StageTimes timesOf(const ScanReport& report);
 
 /// Why a scan has no pose and what to do about it; empty if it has one.
 std::string adviceOn(const ScanResult& result);

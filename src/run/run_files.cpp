@@ -87,9 +87,9 @@ void addTimes(const std::deque<ScanRecord>& scans, Report& report) {
   report.add("ms_mean", mean(totals));
   report.add("ms_p95", quantile(totals, 0.95));
   Report stages;
-  for (size_t i = 0; i < kStageNames.size(); ++i) {
-    stages.add(kStageNames[i],
-               mean(milliseconds(scans, [i](const auto& r) { return r.stages[i]; })));
+  for (const Stage& stage : kStages) {
+    stages.add(stage.name,
+               mean(milliseconds(scans, [&](const auto& r) { return r.times.*stage.time; })));
   }
   report.add("ms_stages", stages);
   const std::vector<double> latencies = latenciesOf(scans);
@@ -122,7 +122,7 @@ void addMap(const MapBuilder& map, Report& report) {
 
 std::string timingsCsv(const std::deque<ScanRecord>& scans) {
   std::string text = "scan,stamp,status,hit_ratio,points,voxels";
-  for (const char* stage : kStageNames) text += std::string(",") + stage + "_ms";
+  for (const Stage& stage : kStages) text += std::string(",") + stage.name + "_ms";
   text += ",total_ms,latency_ms\n";
   const auto ms = [](float seconds) {
     return fixed(kMilliseconds * static_cast<double>(seconds), 3);
@@ -131,7 +131,7 @@ std::string timingsCsv(const std::deque<ScanRecord>& scans) {
     text += std::to_string(record.cloud) + "," + fixed(record.stamp, 6) + "," +
             toString(record.status) + "," + fixed(static_cast<double>(record.hit_ratio), 4) + "," +
             std::to_string(record.points) + "," + std::to_string(record.voxels);
-    for (const float seconds : record.stages) text += "," + ms(seconds);
+    for (const Stage& stage : kStages) text += "," + ms(record.times.*stage.time);
     text += "," + ms(record.total) + "," + (record.latency > 0 ? ms(record.latency) : "") + "\n";
   }
   return text;

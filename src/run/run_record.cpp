@@ -32,10 +32,7 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.points = static_cast<uint32_t>(result.points);
   record.voxels = static_cast<uint32_t>(result.scan_voxels);
   record.sparse_share = static_cast<float>(result.edges.sparseShare());
-  const std::array<double, kStageNames.size()> seconds = {
-      result.voxelize, result.extract, scan.times.match, scan.times.insert, scan.times.label};
-  std::transform(seconds.begin(), seconds.end(), record.stages.begin(),
-                 [](double s) { return static_cast<float>(s); });
+  record.times = scan.times;
   record.total = static_cast<float>(total);
   record.latency = static_cast<float>(latency);
   scans.push_back(record);

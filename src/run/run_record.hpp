@@ -11,13 +11,9 @@
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
+#include "edgevox/stage_times.hpp"
 
 namespace edgevox {
-
-/// Stages of the pipeline, in order.
-enum class Stage { kVoxelize, kExtract, kMatch, kInsert, kLabel };
-constexpr std::array<const char*, 5> kStageNames = {"voxelize", "extract", "match", "insert",
-                                                    "label"};
 
 /// What is remembered of one scan.
 struct ScanRecord {
@@ -27,9 +23,9 @@ struct ScanRecord {
   float hit_ratio = 0.0F;
   uint32_t points = 0;
   uint32_t voxels = 0;
-  float sparse_share = 0.0F;                       ///< EdgeCount::sparseShare()
-  std::array<float, kStageNames.size()> stages{};  ///< [s]
-  float total = 0.0F;                              ///< time of the whole pipeline [s]
+  float sparse_share = 0.0F;  ///< EdgeCount::sparseShare()
+  StageTimes times;
+  float total = 0.0F;    ///< time of the whole pipeline [s]
   float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
 };
 

@@ -21,8 +21,6 @@ struct PipelineResult {
   DroppedPoints dropped;
   std::string too_large;  ///< see VoxelScan
   EdgeCount edges;        ///< of the scan
-  double voxelize = 0.0;  ///< [s]
-  double extract = 0.0;   ///< [s]
 };
 
 /// Voxelizer, edge extractor and mapper in a row: the same three calls that the nodelets make.

@@ -6,6 +6,7 @@
 
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/matching/matcher.hpp"
+#include "edgevox/stage_times.hpp"
 
 namespace edgevox {
 
@@ -19,12 +20,6 @@ enum class ScanStatus {
   kTooLarge,  ///< more points or voxels than allowed; not used
 };
 const char* toString(ScanStatus status);
-
-struct MapperTimes {
-  double match = 0.0;   ///< sampling, prediction, search and refinement [s]
-  double insert = 0.0;  ///< [s]
-  double label = 0.0;   ///< [s]
-};
 
 /// What became of one scan.
 struct ScanResult {
@@ -40,7 +35,7 @@ struct ScanResult {
   int restarts = 0;
   bool ahead = false;         ///< stale, as later by MapperConfig::clock_leap and not confirmed
   bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
-  MapperTimes times;
+  StageTimes times;           ///< from `match` on by the mapper, all by the pipeline
 
   bool located() const {
     return status == ScanStatus::kFirst || status == ScanStatus::kTracked ||

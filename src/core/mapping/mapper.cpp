@@ -23,7 +23,7 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   ScanResult result = tracker_.track(
       scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
   result.clock_jumped = clock_jumped;
-  result.times.match = timer.lap();
+  result.times.match = static_cast<float>(timer.lap());
   if (result.located()) insert(scan, result);
   return result;
 }
@@ -51,9 +51,9 @@ void Mapper::insert(const VoxelScan& scan, ScanResult& result) {
   std::vector<Eigen::Vector3d> centroids = tracker_.placed(scan);
   map_.add(centroids, tracker_.sensor());
   recent_edges_.add(std::move(centroids));
-  result.times.insert = timer.lap();
+  result.times.insert = static_cast<float>(timer.lap());
   if (map_.labelDue()) map_.label();
-  result.times.label = timer.lap();
+  result.times.label = static_cast<float>(timer.lap());
 }
 
 void Mapper::reset() {

@@ -22,11 +22,13 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   StageTimer timer(clock_);
   PipelineResult result;
   VoxelScan scan = voxelizer_.voxelize(cloud);
-  result.voxelize = timer.lap();
+  const double voxelize = timer.lap();
   result.edges = extractor_.extract(scan);
   density_monitor_.add(scan, result.edges);
-  result.extract = timer.lap();
+  const double extract = timer.lap();
   result.scan = mapper_.process(scan, prior);
+  result.scan.times.voxelize = static_cast<float>(voxelize);
+  result.scan.times.extract = static_cast<float>(extract);
   result.points = scan.points_read;
   result.scan_voxels = scan.voxels.size();
   result.dropped = scan.dropped;
