@@ -6,23 +6,22 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <sstream>
+
+#include "edgevox/io/number_text.hpp"
 
 namespace edgevox {
 namespace {
 
 std::string rangeText(const Parameter& p) {
-  std::ostringstream out;
   if (const auto* choice = std::get_if<Choice>(&p.value)) {
-    for (size_t i = 0; i < choice->words.size(); ++i) {
-      out << (i == 0 ? "" : ", ") << choice->words[i];
-    }
-    return "one of " + out.str();
+    std::string words;
+    for (const std::string& word : choice->words) words += (words.empty() ? "" : ", ") + word;
+    return "one of " + words;
   }
   if (std::holds_alternative<bool*>(p.value)) return "true or false";
-  out << "a" << (std::holds_alternative<int*>(p.value) ? " whole" : "") << " number from " << p.min
-      << " to " << p.max << (p.unit.empty() ? "" : " " + p.unit);
-  return out.str();
+  const std::string whole = std::holds_alternative<int*>(p.value) ? "whole " : "";
+  return "a " + whole + "number from " + shortText(p.min) + " to " + shortText(p.max) +
+         (p.unit.empty() ? "" : " " + p.unit);
 }
 
 [[noreturn]] void reject(const Parameter& p, const std::string& text) {
@@ -50,12 +49,10 @@ void assignNumber(const Parameter& p, const std::string& text) {
 
 std::string numberText(double value) {
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::ostringstream out;
-    out.precision(digits);
-    out << value;
-    const bool scientific = out.str().find('e') != std::string::npos;
+    const std::string text = shortText(value, digits);
+    const bool scientific = text.find('e') != std::string::npos;
     if (scientific && std::abs(value) >= 1.0 && std::abs(value) < 1e7) continue;
-    if (std::strtod(out.str().c_str(), nullptr) == value) return out.str();
+    if (std::strtod(text.c_str(), nullptr) == value) return text;
   }
   return "nan";
 }

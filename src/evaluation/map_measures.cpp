@@ -2,10 +2,10 @@
 #include "evaluation/map_measures.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "core/scan/scan_sample.hpp"
+#include "edgevox/io/number_text.hpp"
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/statistics.hpp"
@@ -215,9 +215,8 @@ Table measureMaps(const Recording& recording, const MapMeasureOptions& options,
 
 std::string mapMarkdown(const Recording& recording, const MapMeasureOptions& options,
                         const Table& table) {
-  char guess[64];
-  std::snprintf(guess, sizeof guess, "%g m and %g degrees", options.capture_distance,
-                options.capture_angle);
+  const std::string guess = shortText(options.capture_distance) + " m and " +
+                            shortText(options.capture_angle) + " degrees";
   return "# Maps of " + recording.name + "\n\n" + std::to_string(recording.scans.size()) +
          " scans, reference poses " + recording.source + ", configuration " + options.config_name +
          ".\n\n" +

@@ -2,22 +2,15 @@
 #include "evaluation/table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
+#include "edgevox/io/number_text.hpp"
+
 namespace edgevox {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string all;
@@ -36,8 +29,7 @@ Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 void Table::set(const std::string& column, double value) {
   const size_t position = positionOf(column);
   if (!std::isfinite(value)) return;
-  rows_.back()[position] = {formatted("%.6g", value),
-                            formatted("%.*f", columns_[position].decimals, value)};
+  rows_.back()[position] = {shortText(value), fixedText(value, columns_[position].decimals)};
 }
 
 void Table::set(const std::string& column, const std::string& value) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "edgevox/io/number_text.hpp"
 #include "ros/sensor_frames.hpp"
 #include "ros/stamp.hpp"
 
@@ -13,12 +13,6 @@ namespace {
 
 using geometry_msgs::TransformStamped;
 using Check = std::optional<TransformRefusal>;
-
-std::string textOf(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 constexpr double kFarthest = 1e8;         // [m]; the earth's centre is at 6.4e6 from its surface
 constexpr double kNormTolerance = 10e-3;  // of a squared norm, as of tf2
@@ -37,7 +31,7 @@ Check checkTranslation(const TransformStamped& transform) {
   for (const double metres : {t.x, t.y, t.z}) {
     if (std::abs(metres) <= kFarthest) continue;
     return TransformRefusal{"bad_translation",
-                            "its translation has a component of " + textOf(metres) + " m"};
+                            "its translation has a component of " + shortText(metres) + " m"};
   }
   return std::nullopt;
 }
@@ -46,8 +40,8 @@ Check checkRotation(const TransformStamped& transform) {
   const auto& q = transform.transform.rotation;
   const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (std::abs(squared - 1.0) < kNormTolerance) return std::nullopt;
-  return TransformRefusal{"bad_rotation",
-                          "its quaternion is of norm " + textOf(std::sqrt(squared)) + ", not of 1"};
+  return TransformRefusal{
+      "bad_rotation", "its quaternion is of norm " + shortText(std::sqrt(squared)) + ", not of 1"};
 }
 
 Check checkStamp(const TransformStamped& transform) {

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
+#include <limits>
+
+#include "edgevox/io/number_text.hpp"
 
 namespace edgevox {
 namespace {
@@ -25,12 +27,8 @@ std::string textOf(XmlRpcValue& value, const std::string& full_name) {
       return std::to_string(static_cast<int>(value));
     case XmlRpcValue::TypeString:
       return static_cast<std::string>(value);
-    case XmlRpcValue::TypeDouble: {
-      std::ostringstream text;
-      text.precision(17);
-      text << static_cast<double>(value);
-      return text.str();
-    }
+    case XmlRpcValue::TypeDouble:
+      return shortText(static_cast<double>(value), std::numeric_limits<double>::max_digits10);
     default:
       throw ConfigError("parameter '" + full_name + "' is a list or a date; give one value");
   }

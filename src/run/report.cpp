@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "edgevox/io/number_text.hpp"
+
 namespace edgevox {
 namespace {
 
@@ -29,9 +31,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 void Report::add(const std::string& name, double value) {
-  std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  entries_.push_back({name, std::isfinite(value) ? text.data() : "null", {}});
+  entries_.push_back({name, std::isfinite(value) ? shortText(value) : "null", {}});
 }
 
 void Report::add(const std::string& name, uint64_t value) {

@@ -22,12 +22,12 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "edgevox/io/atomic_file.hpp"
+#include "edgevox/io/number_text.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 #include "tools/console.hpp"
@@ -57,9 +57,8 @@ struct Options {
 
 void requireRange(const char* name, const std::optional<double>& value, double low, double high) {
   if (!value || (*value >= low && *value <= high)) return;
-  std::ostringstream message;
-  message << "--" << name << " is " << *value << ", allowed is " << low << " to " << high;
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(std::string("--") + name + " is " + shortText(*value) +
+                              ", allowed is " + shortText(low) + " to " + shortText(high));
 }
 
 std::optional<double> numberOf(const po::variables_map& given, const char* name) {
