@@ -21,6 +21,14 @@ inline double quantile(std::vector<double> values, double q) {
   return values[below] + fraction * (values[above] - values[below]);
 }
 
+/// The value in the middle, the larger of two; there must be values. quantile() at 0.5 may lie
+/// between two.
+inline double upperMedian(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// NaN if there are no values.
 inline double mean(const std::vector<double>& values) {
   double sum = 0.0;

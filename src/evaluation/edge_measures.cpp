@@ -2,13 +2,13 @@
 #include "evaluation/edge_measures.hpp"
 
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <utility>
 
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/edges/recent_edges.hpp"
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/ring_buffer.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
 #include "evaluation/edge_truth.hpp"
@@ -262,16 +262,15 @@ class SizeMeasurement {
   template <typename Label>
   ScanSums measureEach(const Label& label) {
     ScanSums sums;
-    std::deque<LabelledVoxels> before;
+    RingBuffer<LabelledVoxels> before(options_.pair_step);
     for (size_t i = 0; i < recording_.scans.size(); ++i) {
       LabelledVoxels voxels = label(i, voxelizer_.voxelize(recording_.scans[i].view), sums.seconds);
       addScan(i, voxels, sums);
-      if (before.size() == options_.pair_step) {
+      if (before.isFull()) {
         const Cells cells = cellsOf(voxels, voxels.T_map_grid);
-        sums.with_scans += agreement(before.front(), cells, voxels.T_map_grid);
-        before.pop_front();
+        sums.with_scans += agreement(before.oldest(), cells, voxels.T_map_grid);
       }
-      before.push_back(std::move(voxels));
+      before.push(std::move(voxels));
     }
     return sums;
   }

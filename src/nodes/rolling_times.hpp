@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
+#include "edgevox/ring_buffer.hpp"
 #include "edgevox/statistics.hpp"
 
 namespace edgevox {
@@ -11,23 +11,15 @@ namespace edgevox {
 /// The last hundred durations.
 class RollingTimes {
  public:
-  void add(double seconds) {
-    if (seconds_.size() < kWindow) {
-      seconds_.push_back(seconds);
-    } else {
-      seconds_[next_] = seconds;
-    }
-    next_ = (next_ + 1) % kWindow;
-  }
+  void add(double seconds) { seconds_.push(seconds); }
 
   /// [s]; NaN if there are none
-  double quantile(double q) const { return edgevox::quantile(seconds_, q); }
+  double quantile(double q) const { return edgevox::quantile(seconds_.values(), q); }
 
  private:
   static constexpr size_t kWindow = 100;
 
-  std::vector<double> seconds_;
-  size_t next_ = 0;
+  RingBuffer<double> seconds_{kWindow};
 };
 
 }  // namespace edgevox

@@ -6,7 +6,6 @@
 namespace edgevox {
 namespace {
 
-constexpr size_t kWindow = 30;            // messages
 constexpr double kAnotherClock = 3600.0;  // [s]
 
 }  // namespace
@@ -15,8 +14,7 @@ void InputMonitor::arrived(const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++received_;
   last_ = ros::WallTime::now();
-  arrivals_.push_back(last_);
-  if (arrivals_.size() > kWindow) arrivals_.pop_front();
+  arrivals_.push(last_);
   const double delay = ros::Time::now().toSec() - stamp.toSec();
   delay_ = std::abs(delay) < kAnotherClock ? std::optional<double>(delay) : std::nullopt;
 }
@@ -28,7 +26,7 @@ InputReading InputMonitor::read() const {
   reading.silence = (ros::WallTime::now() - last_).toSec();
   reading.delay = delay_;
   if (arrivals_.size() > 1) {
-    const double span = (arrivals_.back() - arrivals_.front()).toSec();
+    const double span = (arrivals_.newest() - arrivals_.oldest()).toSec();
     if (span > 0.0) reading.rate = static_cast<double>(arrivals_.size() - 1) / span;
   }
   return reading;

@@ -3,11 +3,13 @@
 
 #include <ros/time.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
+
+#include "edgevox/ring_buffer.hpp"
 
 namespace edgevox {
 
@@ -29,10 +31,12 @@ class InputMonitor {
   InputReading read() const;
 
  private:
+  static constexpr size_t kWindow = 30;
+
   mutable std::mutex mutex_;
   uint64_t received_ = 0;
   ros::WallTime last_;
-  std::deque<ros::WallTime> arrivals_;
+  RingBuffer<ros::WallTime> arrivals_{kWindow};
   std::optional<double> delay_;
 };
 

@@ -40,7 +40,7 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, std::string map_frame, std:
                              int path_length)
     : map_frame_(withoutSlash(map_frame)),
       base_frame_(withoutSlash(base_frame)),
-      path_length_(static_cast<size_t>(path_length)),
+      path_(static_cast<size_t>(path_length)),
       odometry_(handle.advertise<nav_msgs::Odometry>("odom", 100)),
       path_publisher_(handle.advertise<nav_msgs::Path>("path", 1, true)) {}
 
@@ -73,9 +73,8 @@ bool PosePublisher::publish(const std_msgs::Header& header, const ScanResult& sc
 }
 
 void PosePublisher::appendToPath(const geometry_msgs::PoseStamped& pose) {
-  if (!path_.empty() && distance(path_.back(), pose) < kPathStep) return;
-  path_.push_back(pose);
-  if (path_.size() > path_length_) path_.pop_front();
+  if (!path_.empty() && distance(path_.newest(), pose) < kPathStep) return;
+  path_.push(pose);
   path_changed_ = true;
 }
 
@@ -83,8 +82,9 @@ void PosePublisher::publishPath() {
   if (!path_changed_ || path_publisher_.getNumSubscribers() == 0) return;
   nav_msgs::Path path;
   path.header.frame_id = map_frame_;
-  if (!path_.empty()) path.header.stamp = path_.back().header.stamp;
-  path.poses.assign(path_.begin(), path_.end());
+  if (!path_.empty()) path.header.stamp = path_.newest().header.stamp;
+  path.poses.reserve(path_.size());
+  for (size_t i = 0; i < path_.size(); ++i) path.poses.push_back(path_[i]);
   path_publisher_.publish(path);
   path_changed_ = false;
 }

@@ -6,11 +6,11 @@
 #include <ros/publisher.h>
 #include <std_msgs/Header.h>
 
-#include <deque>
 #include <optional>
 #include <string>
 
 #include "edgevox/mapping/mapper.hpp"
+#include "edgevox/ring_buffer.hpp"
 
 namespace edgevox {
 
@@ -40,9 +40,8 @@ class PosePublisher {
 
   std::string map_frame_;
   std::string base_frame_;
-  size_t path_length_;
   std::optional<Last> last_;
-  std::deque<geometry_msgs::PoseStamped> path_;
+  RingBuffer<geometry_msgs::PoseStamped> path_;
   bool path_changed_ = false;
   ros::Publisher odometry_;
   ros::Publisher path_publisher_;

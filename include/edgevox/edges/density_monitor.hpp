@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/ring_buffer.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 
 namespace edgevox {
@@ -61,9 +61,8 @@ class DensityMonitor {
 
   EdgeConfig config_;
   int threads_;
-  size_t window_;
-  std::deque<double> shares_;
-  std::deque<double> voxel_sizes_;  ///< that the sparse scans need [m], infinite: none will do
+  RingBuffer<double> shares_;
+  RingBuffer<double> voxel_sizes_;  ///< that the sparse scans need [m], infinite: none will do
   std::optional<double> counted_;   ///< stamp of the last scan counted again [s]
 };
 

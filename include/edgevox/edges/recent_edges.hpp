@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <deque>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +9,7 @@
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/grid/block_grid.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/ring_buffer.hpp"
 
 namespace edgevox {
 
@@ -38,9 +37,8 @@ class RecentEdges {
 
   double voxel_size_;
   EdgeLabeller<16> labeller_;
-  int neighbours_;  // see thinEdges()
-  size_t window_;
-  std::deque<std::vector<Eigen::Vector3d>> scans_;  // their centroids
+  int neighbours_;                                  // see thinEdges()
+  RingBuffer<std::vector<Eigen::Vector3d>> scans_;  // their centroids
 };
 
 }  // namespace edgevox

@@ -2,25 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "edgevox/config.hpp"
 #include "edgevox/matching/matcher.hpp"
+#include "edgevox/ring_buffer.hpp"
 
 namespace edgevox {
-
-/// Median of the last values.
-class RunningMedian {
- public:
-  void add(double value);
-  bool empty() const { return values_.empty(); }
-  double median() const;
-
- private:
-  static constexpr size_t kWindow = 31;
-  std::vector<double> values_;
-  size_t next_ = 0;
-};
 
 /// What a match must reach, by what the last ones did.
 class Acceptance {
@@ -32,14 +19,16 @@ class Acceptance {
   void setHitRatios(MatchRequest& request) const;
   /// Whether a match to the selected surfaces is too weak; `sigma` as of worstSigma() [m].
   bool needsFallback(const MatchResult& match, double sigma) const;
-  void addHitRatio(double ratio) { hit_ratios_.add(ratio); }
-  void addSigma(double sigma) { sigmas_.add(sigma); }
+  void addHitRatio(double ratio) { hit_ratios_.push(ratio); }
+  void addSigma(double sigma) { sigmas_.push(sigma); }
 
  private:
+  static constexpr size_t kWindow = 31;
+
   MatcherConfig matcher_;
   MapperConfig mapper_;
-  RunningMedian hit_ratios_;
-  RunningMedian sigmas_;
+  RingBuffer<double> hit_ratios_{kWindow};
+  RingBuffer<double> sigmas_{kWindow};
 };
 
 }  // namespace edgevox

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/edges/density_monitor.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -22,22 +21,6 @@ constexpr EdgeThresholds kNoThresholds{};  // what is sparse does not depend on 
 double roundedUp(double size) {
   constexpr double kTolerance = 1e-6;
   return std::ldexp(kSeries, static_cast<int>(std::ceil(std::log2(size / kSeries) - kTolerance)));
-}
-
-double medianOf(const std::deque<double>& values) {
-  return quantile(std::vector<double>(values.begin(), values.end()), 0.5);
-}
-
-/// The value in the middle, the larger of two: medianOf() may give one that is not of the series.
-double upperMedianOf(const std::deque<double>& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
-  return sorted[sorted.size() / 2];
-}
-
-void push(double value, size_t window, std::deque<double>& values) {
-  values.push_back(value);
-  if (values.size() > window) values.pop_front();
 }
 
 }  // namespace
@@ -80,14 +63,14 @@ std::optional<double> denserVoxelSize(const VoxelScan& scan, const EdgeConfig& c
 }
 
 DensityMonitor::DensityMonitor(const EdgeConfig& config, int threads, size_t window)
-    : config_(config), threads_(threads), window_(window) {}
+    : config_(config), threads_(threads), shares_(window), voxel_sizes_(window) {}
 
 void DensityMonitor::add(const VoxelScan& scan, const EdgeCount& count) {
   if (count.occupied < kFewVoxels) return;
-  push(count.sparseShare(), window_, shares_);
+  shares_.push(count.sparseShare());
   if (count.sparseShare() <= kSparseLimit || !isDue(scan.stamp)) return;
-  push(denserVoxelSize(scan, config_, threads_).value_or(std::numeric_limits<double>::infinity()),
-       window_, voxel_sizes_);
+  voxel_sizes_.push(
+      denserVoxelSize(scan, config_, threads_).value_or(std::numeric_limits<double>::infinity()));
 }
 
 bool DensityMonitor::isDue(double stamp) {
@@ -96,13 +79,13 @@ bool DensityMonitor::isDue(double stamp) {
   return true;
 }
 
-double DensityMonitor::share() const { return medianOf(shares_); }
+double DensityMonitor::share() const { return quantile(shares_.values(), 0.5); }
 
 std::optional<DensityWarning> DensityMonitor::warning() const {
   const double median = share();
   // Above the limit at least one scan of the window was; the first of all such was counted again.
   if (!(median > kSparseLimit)) return std::nullopt;
-  const double size = upperMedianOf(voxel_sizes_);
+  const double size = upperMedian(voxel_sizes_.values());  // of the series
   return DensityWarning{median, std::isfinite(size) ? size : 0.0};
 }
 

@@ -17,12 +17,9 @@ RecentEdges::RecentEdges(double voxel_size, const EdgeConfig& config, int scans,
     : voxel_size_(voxel_size),
       labeller_(config, {config.map.ratio, config.scan.support}, threads),
       neighbours_(config.mode == EdgeMode::kPaper ? 0 : kNeighbours),
-      window_(static_cast<size_t>(scans)) {}
+      scans_(static_cast<size_t>(scans)) {}
 
-void RecentEdges::add(std::vector<Eigen::Vector3d> centroids) {
-  scans_.push_back(std::move(centroids));
-  if (scans_.size() > window_) scans_.pop_front();
-}
+void RecentEdges::add(std::vector<Eigen::Vector3d> centroids) { scans_.push(std::move(centroids)); }
 
 void RecentEdges::setVoxels(const std::vector<Eigen::Vector3d>& centroids,
                             BitGrid<16>& voxels) const {
@@ -33,14 +30,14 @@ void RecentEdges::setVoxels(const std::vector<Eigen::Vector3d>& centroids,
 
 BitGrid<16> RecentEdges::occupied() const {
   BitGrid<16> occupied;
-  if (!scans_.empty()) setVoxels(scans_.back(), occupied);
+  if (!scans_.empty()) setVoxels(scans_.newest(), occupied);
   return occupied;
 }
 
 BitGrid<16> RecentEdges::edgeVoxels() const {
   const BitGrid<16> last = occupied();
   BitGrid<16> window;
-  for (const auto& scan : scans_) setVoxels(scan, window);
+  for (size_t i = 0; i < scans_.size(); ++i) setVoxels(scans_[i], window);
   BitGrid<16> targets;
   Dilation<16>(1, window, targets).add(last);
   BitGrid<16> candidates;
@@ -54,7 +51,7 @@ std::vector<Eigen::Vector3f> RecentEdges::edgeCentroids() const {
   const BitGrid<16> edges = edgeVoxels();
   std::vector<Eigen::Vector3f> centroids;
   if (scans_.empty()) return centroids;
-  for (const Eigen::Vector3d& c : scans_.back()) {
+  for (const Eigen::Vector3d& c : scans_.newest()) {
     const bool edge = inGridRange(c, voxel_size_) && edges.test(voxelAt(c, 1.0 / voxel_size_));
     if (edge) centroids.push_back(c.cast<float>());
   }

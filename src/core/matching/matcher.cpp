@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "edgevox/scan/motion.hpp"
+#include "edgevox/statistics.hpp"
 
 namespace edgevox {
 namespace {
@@ -206,9 +208,7 @@ Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
 double medianRange(const ScanSample& sample, size_t count) {
   std::vector<double> ranges(count);
   for (size_t i = 0; i < count; ++i) ranges[i] = sample[i].norm();
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
+  return upperMedian(std::move(ranges));
 }
 
 size_t Matcher::sampleSize() const {

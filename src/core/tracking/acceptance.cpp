@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/tracking/acceptance.hpp"
 
-#include <algorithm>
+#include "edgevox/statistics.hpp"
 
 namespace edgevox {
 namespace {
@@ -9,22 +9,6 @@ namespace {
 constexpr double kTrusted = 0.95;  // of the running median of the hit ratios
 
 }  // namespace
-
-void RunningMedian::add(double value) {
-  if (values_.size() < kWindow) {
-    values_.push_back(value);
-  } else {
-    values_[next_] = value;
-  }
-  next_ = (next_ + 1) % kWindow;
-}
-
-double RunningMedian::median() const {
-  std::vector<double> sorted = values_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
 
 /// Before there is a history, a match is not trusted.
 void Acceptance::setHitRatios(MatchRequest& request) const {
@@ -34,7 +18,7 @@ void Acceptance::setHitRatios(MatchRequest& request) const {
     request.trusted_hit_ratio = 1.0;
     return;
   }
-  const double usual = hit_ratios_.median();
+  const double usual = upperMedian(hit_ratios_.values());
   request.required_hit_ratio = matcher_.relative_hit_ratio * usual;
   request.trusted_hit_ratio = kTrusted * usual;
   request.far_hit_ratio = request.trusted_hit_ratio;
@@ -43,8 +27,8 @@ void Acceptance::setHitRatios(MatchRequest& request) const {
 bool Acceptance::needsFallback(const MatchResult& match, double sigma) const {
   return match.matches < mapper_.fallback_matches ||
          (!hit_ratios_.empty() &&
-          match.hit_ratio < mapper_.fallback_hit_ratio * hit_ratios_.median()) ||
-         (!sigmas_.empty() && sigma > mapper_.fallback_sigma * sigmas_.median());
+          match.hit_ratio < mapper_.fallback_hit_ratio * upperMedian(hit_ratios_.values())) ||
+         (!sigmas_.empty() && sigma > mapper_.fallback_sigma * upperMedian(sigmas_.values()));
 }
 
 }  // namespace edgevox

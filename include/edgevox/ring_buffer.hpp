@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace edgevox {
+
+/// The last values of a series, as many as it has room for. Memory is taken as they come.
+template <typename T>
+class RingBuffer {
+ public:
+  /// `capacity`: how many values there is room for, at least 1.
+  explicit RingBuffer(size_t capacity) : capacity_(capacity) {}
+
+  /// In the place of the oldest value if there is no room left.
+  void push(T value) {
+    if (!isFull()) return values_.push_back(std::move(value));
+    values_[oldest_] = std::move(value);
+    oldest_ = (oldest_ + 1) % capacity_;
+  }
+  void clear() {
+    values_.clear();
+    oldest_ = 0;
+  }
+
+  size_t size() const { return values_.size(); }
+  bool empty() const { return values_.empty(); }
+  bool isFull() const { return values_.size() == capacity_; }
+  /// Counted from the oldest value; i < size().
+  const T& operator[](size_t i) const { return values_[(oldest_ + i) % values_.size()]; }
+  /// There must be values, as below.
+  const T& oldest() const { return values_[oldest_]; }
+  const T& newest() const { return (*this)[size() - 1]; }
+  /// In any order.
+  const std::vector<T>& values() const { return values_; }
+
+ private:
+  size_t capacity_;
+  std::vector<T> values_;
+  size_t oldest_ = 0;
+};
+
+}  // namespace edgevox
