@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 
 #include "evaluation/edge_measures.hpp"
 #include "evaluation/subjects.hpp"
@@ -16,7 +15,7 @@ namespace po = boost::program_options;
 using Sizes = std::vector<double>;
 
 po::options_description describe() {
-  po::options_description known(
+  po::options_description known = withHelp(
       "Usage: evaluate edges INPUT --output FOLDER [options]\n"
       "Measures how edges are extracted from scans and labelled in the map: compression,\n"
       "repeatability, time, and in simulated worlds precision, coverage, the causes of false\n"
@@ -37,19 +36,17 @@ EdgeMeasureOptions measureOptionsOf(const po::variables_map& given) {
   if (given.count("voxel-sizes") > 0) options.voxel_sizes = given["voxel-sizes"].as<Sizes>();
   for (const double size : options.voxel_sizes) {
     if (size >= 0.01 && size <= 10.0) continue;
-    throw std::invalid_argument("--voxel-sizes must be 0.01 to 10 m");
+    throw UsageError("--voxel-sizes must be 0.01 to 10 m");
   }
   options.config = configOf(given, options.config_name);
-  const auto step = given["pair-step"].as<int64_t>();
-  if (step < 1) throw std::invalid_argument("--pair-step must be at least 1");
-  options.pair_step = static_cast<size_t>(step);
+  options.pair_step = countOf(given, "pair-step", 1);
   return options;
 }
 
 }  // namespace
 
 void evaluateEdges(const Arguments& arguments) {
-  const auto given = parseArguments(arguments, describe(), "input");
+  const auto given = parseOptions(arguments, describe(), "input");
   if (!given) return;
   const EdgeMeasureOptions options = measureOptionsOf(*given);
   const fs::path folder = (*given)["output"].as<std::string>();

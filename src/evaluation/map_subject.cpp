@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 
 #include "evaluation/map_measures.hpp"
 #include "evaluation/subjects.hpp"
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 po::options_description describe() {
-  po::options_description known(
+  po::options_description known = withHelp(
       "Usage: evaluate map INPUT --output FOLDER [options]\n"
       "Maps a recording with maps of many sizes and measures error and capture against their\n"
       "bytes: of flat anchors and edges, of as many voxels by chance, and of all voxels. Writes\n"
@@ -34,7 +33,7 @@ MapMeasureOptions measureOptionsOf(const po::variables_map& given) {
   if (given.count("anchors") > 0) options.anchors = given["anchors"].as<std::vector<int>>();
   for (const int anchors : options.anchors) {
     if (anchors < 1 || anchors > 1000) {
-      throw std::invalid_argument("--anchors must be 1 to 1000");
+      throw UsageError("--anchors must be 1 to 1000");
     }
   }
   return options;
@@ -43,7 +42,7 @@ MapMeasureOptions measureOptionsOf(const po::variables_map& given) {
 }  // namespace
 
 void evaluateMap(const Arguments& arguments) {
-  const auto given = parseArguments(arguments, describe(), "input");
+  const auto given = parseOptions(arguments, describe(), "input");
   if (!given) return;
   const MapMeasureOptions options = measureOptionsOf(*given);
   const fs::path folder = (*given)["output"].as<std::string>();

@@ -15,12 +15,11 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 po::options_description describe() {
-  po::options_description known(
+  po::options_description known = withHelp(
       "Usage: evaluate run FOLDER --reference TUM\n"
       "Compares FOLDER/trajectory.tum with a reference trajectory of the same frame: writes\n"
       "FOLDER/errors.csv and errors.json and prints the latter.\nOptions");
   auto add = known.add_options();
-  add("help,h", "print this text");
   add("folder", po::value<std::string>()->required(), "of map_bag or save_map; the first argument");
   add("reference", po::value<std::string>()->required(), "true trajectory, TUM format");
   return known;
@@ -29,7 +28,7 @@ po::options_description describe() {
 }  // namespace
 
 void evaluateRun(const Arguments& arguments) {
-  const auto given = parseArguments(arguments, describe(), "folder");
+  const auto given = parseOptions(arguments, describe(), "folder");
   if (!given) return;
   const fs::path folder = (*given)["folder"].as<std::string>();
   RunFolder run(folder);

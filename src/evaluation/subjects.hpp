@@ -2,30 +2,22 @@
 // The subjects of evaluate. Each has its own options and its own file.
 #pragma once
 
-#include <boost/program_options.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "edgevox/config.hpp"
 #include "evaluation/recording.hpp"
 #include "evaluation/table.hpp"
+#include "tools/options.hpp"
 
 namespace edgevox {
 
-using Arguments = std::vector<std::string>;  ///< that follow the subject's name
-
-/// Each throws boost::program_options::error or std::logic_error for arguments that are wrong.
+/// The arguments are those that follow the subject's name. Each throws std::invalid_argument if
+/// they are wrong.
 void evaluateRun(const Arguments& arguments);
 void evaluateEdges(const Arguments& arguments);
 void evaluateMap(const Arguments& arguments);
-
-/// The arguments by their names; the first without a name is `positional`. Nothing if help was
-/// asked for and given.
-std::optional<boost::program_options::variables_map> parseArguments(
-    const Arguments& arguments, const boost::program_options::options_description& known,
-    const char* positional);
 
 /// Options of all subjects that work on a recording, and what they say.
 void addRecordingOptions(boost::program_options::options_description& known);

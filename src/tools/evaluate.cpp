@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures runs, edges and maps against what is known of them.
-#include <boost/program_options.hpp>
-#include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 
 #include "evaluation/subjects.hpp"
+#include "tools/options.hpp"
 
 namespace {
 
@@ -35,32 +33,19 @@ const Subject& subjectOf(const std::string& name) {
     if (name == subject.name) return subject;
     names += (names.empty() ? "" : ", ") + std::string(subject.name);
   }
-  throw std::invalid_argument("'" + name + "' is not known: " + names);
+  throw edgevox::UsageError("'" + name + "' is not known: " + names);
 }
 
-void run(const edgevox::Arguments& arguments) {
-  if (arguments.empty()) throw std::invalid_argument("name a subject");
-  if (arguments[0] == "--help" || arguments[0] == "-h") return printHelp();
-  subjectOf(arguments[0]).evaluate({arguments.begin() + 1, arguments.end()});
-}
-
-int refuse(const std::exception& error) {
-  std::cerr << "evaluate: " << error.what() << "; see evaluate --help\n";
-  return 2;
+int run(const edgevox::Arguments& arguments) {
+  if (arguments.empty()) throw edgevox::UsageError("name a subject");
+  if (arguments[0] == "--help" || arguments[0] == "-h") {
+    printHelp();
+  } else {
+    subjectOf(arguments[0]).evaluate({arguments.begin() + 1, arguments.end()});
+  }
+  return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    run({argv + 1, argv + argc});
-    return 0;
-  } catch (const boost::program_options::error& error) {
-    return refuse(error);
-  } catch (const std::invalid_argument& error) {
-    return refuse(error);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate: " << error.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return edgevox::runTool("evaluate", argc, argv, run); }

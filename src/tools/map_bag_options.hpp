@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "edgevox/config.hpp"
 #include "ros/sensor_frames.hpp"
+#include "tools/options.hpp"
 
 namespace edgevox {
 
@@ -32,13 +32,8 @@ struct MapBagOptions {
   bool write_occupied = false;
 };
 
-/// A command line that is wrong; the text says how.
-struct UsageError : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
-
 /// Nothing if only the help was asked for, which is printed. Throws UsageError.
-std::optional<MapBagOptions> parseMapBagOptions(int argc, const char* const* argv);
+std::optional<MapBagOptions> parseMapBagOptions(const Arguments& arguments);
 
 /// The configuration in force. Throws ConfigError.
 Config configOf(const MapBagOptions& options);

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -31,6 +30,7 @@
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 #include "tools/console.hpp"
+#include "tools/options.hpp"
 
 namespace edgevox::sim {
 namespace {
@@ -57,23 +57,17 @@ struct Options {
 
 void requireRange(const char* name, const std::optional<double>& value, double low, double high) {
   if (!value || (*value >= low && *value <= high)) return;
-  throw std::invalid_argument(std::string("--") + name + " is " + shortText(*value) +
-                              ", allowed is " + shortText(low) + " to " + shortText(high));
-}
-
-std::optional<double> numberOf(const po::variables_map& given, const char* name) {
-  if (given.count(name) == 0) return std::nullopt;
-  return given[name].as<double>();
+  throw UsageError(std::string("--") + name + " is " + shortText(*value) + ", allowed is " +
+                   shortText(low) + " to " + shortText(high));
 }
 
 po::options_description describeOptions() {
-  po::options_description description(
+  po::options_description description = withHelp(
       "simulate: a lidar's sweeps through a made-up world\n"
       "Building (76 s) and street (81.6 s) end as they begin: same place, same heading, at rest,\n"
       "so that their bags can be played round after round.\n\n"
       "Options");
   auto add = description.add_options();
-  add("help,h", "print this text");
   add("world", po::value<std::string>()->required(), "building, street or corridor");
   add("sensor", po::value<std::string>()->default_value("32"),
       "16, 32 or 64 beams, or scanner (terrestrial, standing stations)");
@@ -89,22 +83,15 @@ po::options_description describeOptions() {
 }
 
 // Nothing if help was asked for and given.
-std::optional<Options> parseOptions(int argc, char** argv) {
-  const po::options_description description = describeOptions();
-  po::variables_map given;
-  po::store(po::command_line_parser(argc, argv).options(description).positional({}).run(), given);
-  if (given.count("help") > 0) {
-    std::cout << description;
-    return std::nullopt;
-  }
-  po::notify(given);
+std::optional<Options> optionsOf(const Arguments& arguments) {
+  const auto parsed = parseOptions(arguments, describeOptions());
+  if (!parsed) return std::nullopt;
+  const po::variables_map& given = *parsed;
   Options options;
   options.world = given["world"].as<std::string>();
   options.sensor = given["sensor"].as<std::string>();
   options.output = given["output"].as<std::string>();
-  const auto seed = given["seed"].as<std::int64_t>();
-  if (seed < 0) throw std::invalid_argument("--seed is " + std::to_string(seed) + ", below 0");
-  options.seed = static_cast<std::uint64_t>(seed);
+  options.seed = countOf(given, "seed", 0);
   options.movers = given.count("movers") > 0;
   options.duration = numberOf(given, "duration");
   options.noise = numberOf(given, "noise");
@@ -115,7 +102,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
   requireRange("dropout", options.dropout, 0.0, 1.0);
   requireRange("rate", options.rate, 0.01, 100.0);
   if (options.output.extension() != ".bag") {
-    throw std::invalid_argument("--output must end in .bag");
+    throw UsageError("--output must end in .bag");
   }
   return options;
 }
@@ -252,7 +239,7 @@ Run prepareRun(const Options& options) {
     sweeps =
         std::min(sweeps, static_cast<int>(std::floor(*options.duration / sensor.period + 1e-9)));
   }
-  if (sweeps < 1) throw std::invalid_argument("--duration is shorter than one sweep");
+  if (sweeps < 1) throw UsageError("--duration is shorter than one sweep");
   Movers movers = options.movers ? makeMovers(name, options.seed) : Movers{};
   return {makeWorld(name, options.seed), std::move(movers), sensor, std::move(trajectory), sweeps};
 }
@@ -315,6 +302,14 @@ void simulate(const Options& options, Console& console) {
   bag_file.keep();
 }
 
+int run(const Arguments& arguments) {
+  const auto options = optionsOf(arguments);
+  if (!options) return 0;
+  Console console(std::cerr, isatty(STDERR_FILENO) != 0, "sweeps");
+  simulate(*options, console);
+  return 0;
+}
+
 }  // namespace
 }  // namespace edgevox::sim
 
@@ -322,17 +317,5 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM}) {
     std::signal(signal, [](int) { edgevox::sim::interrupted = 1; });
   }
-  try {
-    const auto options = edgevox::sim::parseOptions(argc, argv);
-    if (!options) return 0;
-    edgevox::Console console(std::cerr, isatty(STDERR_FILENO) != 0, "sweeps");
-    edgevox::sim::simulate(*options, console);
-    return 0;
-  } catch (const std::logic_error& error) {  // options and their values
-    std::cerr << "simulate: " << error.what() << "; see simulate --help\n";
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "simulate: " << error.what() << "\n";
-    return 1;
-  }
+  return edgevox::runTool("simulate", argc, argv, edgevox::sim::run);
 }

@@ -9,14 +9,9 @@
 namespace edgevox {
 namespace {
 
-std::optional<MapBagOptions> parse(std::vector<const char*> arguments) {
-  arguments.insert(arguments.begin(), "map_bag");
-  return parseMapBagOptions(static_cast<int>(arguments.size()), arguments.data());
-}
-
-void expectError(const std::vector<const char*>& arguments, const std::string& words) {
+void expectError(const Arguments& arguments, const std::string& words) {
   try {
-    parse(arguments);
+    parseMapBagOptions(arguments);
     ADD_FAILURE() << "no error; expected " << words;
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -24,7 +19,7 @@ void expectError(const std::vector<const char*>& arguments, const std::string& w
 }
 
 TEST(MapBagOptions, defaults) {
-  const auto options = parse({"run.bag", "--output", "out"});
+  const auto options = parseMapBagOptions({"run.bag", "--output", "out"});
   ASSERT_TRUE(options);
   EXPECT_EQ(options->bag, "run.bag");
   EXPECT_EQ(options->output, "out");
@@ -36,35 +31,35 @@ TEST(MapBagOptions, defaults) {
 }
 
 TEST(MapBagOptions, allGiven) {
-  const auto options = parse({"run.bag",
-                              "-o",
-                              "out",
-                              "--topic",
-                              "/p",
-                              "--config",
-                              "indoor",
-                              "--reference",
-                              "r.tum",
-                              "--base-frame",
-                              "base",
-                              "--odom-frame",
-                              "odom",
-                              "--stride",
-                              "3",
-                              "--skip",
-                              "2-5",
-                              "--skip",
-                              "9-9",
-                              "--occupied",
-                              "--representation",
-                              "all",
-                              "--threads",
-                              "2",
-                              "--set",
-                              "voxel_size=0.2",
-                              "map/min_hits=1",
-                              "--set",
-                              "edges/mode=paper"});
+  const auto options = parseMapBagOptions({"run.bag",
+                                           "-o",
+                                           "out",
+                                           "--topic",
+                                           "/p",
+                                           "--config",
+                                           "indoor",
+                                           "--reference",
+                                           "r.tum",
+                                           "--base-frame",
+                                           "base",
+                                           "--odom-frame",
+                                           "odom",
+                                           "--stride",
+                                           "3",
+                                           "--skip",
+                                           "2-5",
+                                           "--skip",
+                                           "9-9",
+                                           "--occupied",
+                                           "--representation",
+                                           "all",
+                                           "--threads",
+                                           "2",
+                                           "--set",
+                                           "voxel_size=0.2",
+                                           "map/min_hits=1",
+                                           "--set",
+                                           "edges/mode=paper"});
   ASSERT_TRUE(options);
   EXPECT_EQ(options->topic, "/p");
   EXPECT_EQ(options->reference, "r.tum");
