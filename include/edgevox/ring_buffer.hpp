@@ -14,7 +14,7 @@ class RingBuffer {
   /// `capacity`: how many values there is room for, at least 1.
   explicit RingBuffer(size_t capacity) : capacity_(capacity) {}
 
-  /// In the place of the oldest value if there is no room left.
+  /// Puts the value in the place of the oldest one if there is no room left.
   void push(T value) {
     if (!isFull()) return values_.push_back(std::move(value));
     values_[oldest_] = std::move(value);
@@ -28,12 +28,12 @@ class RingBuffer {
   size_t size() const { return values_.size(); }
   bool empty() const { return values_.empty(); }
   bool isFull() const { return values_.size() == capacity_; }
-  /// Counted from the oldest value; i < size().
+  /// The i-th value counted from the oldest one; i < size().
   const T& operator[](size_t i) const { return values_[(oldest_ + i) % values_.size()]; }
-  /// There must be values, as below.
+  /// The value that came first and the one that came last; there must be values.
   const T& oldest() const { return values_[oldest_]; }
   const T& newest() const { return (*this)[size() - 1]; }
-  /// In any order.
+  /// All values, in any order.
   const std::vector<T>& values() const { return values_; }
 
  private:

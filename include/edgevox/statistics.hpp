@@ -9,8 +9,8 @@
 
 namespace edgevox {
 
-/// With linear interpolation between the values, as numpy.quantile; 0 <= q <= 1. NaN if there are
-/// no values.
+/// The quantile with linear interpolation between the values, as numpy.quantile; 0 <= q <= 1. NaN
+/// if there are no values.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
@@ -29,7 +29,7 @@ inline double upperMedian(std::vector<double> values) {
   return *middle;
 }
 
-/// NaN if there are no values.
+/// The mean; NaN if there are no values.
 inline double mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += v;

@@ -22,7 +22,7 @@ constexpr double kWideReach = 3.0;   ///< the same, as far as the structure tens
 /// them the scans have seen.
 struct EdgeTruth {
   EdgeTruth() = default;
-  /// Of a simulated recording.
+  /// The true edges of a simulated recording.
   explicit EdgeTruth(const Recording& recording);
 
   std::vector<Segment> creases;
@@ -60,10 +60,10 @@ class EdgeJudge {
   bool isTrue(const LabelledVoxel& voxel) const {
     return creases_.distanceTo(voxel.centre) <= reach_;
   }
-  /// Without causes. `seen`: numbers of the pieces to be covered.
+  /// The score without causes. `seen`: numbers of the pieces to be covered.
   TruthScore score(const LabelledVoxels& voxels, const std::vector<uint32_t>& seen) const;
-  /// Of `most` false edges, evenly taken, or of all. `T_world_grid(voxel)` is the pose of the grid
-  /// at the voxel's time.
+  /// The causes of `most` false edges, evenly taken, or of all. `T_world_grid(voxel)` is the pose
+  /// of the grid at the voxel's time.
   template <typename PoseOf>
   CauseCounts causes(const LabelledVoxels& voxels, const FalseEdgeJudge& judge, size_t most,
                      const PoseOf& T_world_grid) const;

@@ -14,14 +14,14 @@ namespace edgevox {
 /// Tells ghosts in the map of a simulated recording.
 class GhostJudge {
  public:
-  /// Of scans from `begin` to `end` [s]. `truth` must outlive this.
+  /// Judges a map of the scans from `begin` to `end` [s]. `truth` must outlive this.
   GhostJudge(const SimulatedTruth& truth, double begin, double end);
 
   /// Whether the centroid of an occupied voxel is within one voxel of where something was meanwhile
   /// and more than 1.5 voxels from all that stands there in the end. World frame [m].
   bool isGhost(const Eigen::Vector3d& centroid, double voxel_size) const;
 
-  /// Of centroids in a grid's frame [m].
+  /// The number of ghosts among centroids in a grid's frame [m].
   size_t count(const std::vector<Eigen::Vector3f>& centroids, double voxel_size,
                const Pose& T_world_grid) const;
 

@@ -30,12 +30,13 @@ struct LabelledVoxels {
   size_t occupied() const { return voxels.size(); }
 };
 
-/// Of scan number `scan` of the recording, voxelized at half the map's voxel and labelled.
+/// The voxels of scan number `scan` of the recording, voxelized at half the map's voxel and
+/// labelled.
 LabelledVoxels labelledVoxels(const Recording& recording, size_t scan, const VoxelScan& voxels);
-/// Of a grid that stands in the map.
+/// The voxels of a grid that stands in the map.
 LabelledVoxels labelledVoxels(const BitGrid<16>& occupied, const BitGrid<16>& edges,
                               double voxel_size, const Pose& T_map_grid);
-/// Of the voxels with enough hits of a map in a grid of its own.
+/// The voxels with enough hits of a map in a grid of its own.
 LabelledVoxels labelledVoxels(const MapBuilder& map, const Pose& T_map_grid);
 
 /// Centroids of a scan, each at the pose of its time, map frame [m].

@@ -35,7 +35,7 @@ class SegmentIndex {
     }
   }
 
-  /// To the nearest segment [m]; infinite if none is within reach.
+  /// The distance to the nearest segment [m]; infinite if none is within reach.
   double distanceTo(const Eigen::Vector3d& point) const;
 
  private:

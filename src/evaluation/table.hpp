@@ -19,16 +19,17 @@ class Table {
   explicit Table(std::vector<Column> columns);
 
   void addRow() { rows_.emplace_back(columns_.size()); }
-  /// In the last row. A value that is not finite stays empty, as does one that is never set.
-  /// Throws std::out_of_range for a column that is not known, std::invalid_argument for a text that
-  /// holds a comma, quote, bar or line end.
+  /// Sets a value in the last row. One that is not finite stays empty, as does one that is never
+  /// set. Throws std::out_of_range for a column that is not known, std::invalid_argument for a text
+  /// that holds a comma, quote, bar or line end.
   void set(const std::string& column, double value);
   void set(const std::string& column, const std::string& value);
 
   size_t rows() const { return rows_.size(); }
   std::string csv() const;
-  /// Of the columns named, of which the first `keys` say what a row is about and are never empty.
-  /// Columns and rows that hold nothing else are left out; "" if nothing is left.
+  /// A table in Markdown of the columns named, of which the first `keys` say what a row is about
+  /// and are never empty. Columns and rows that hold nothing else are left out; "" if nothing is
+  /// left.
   std::string markdown(const std::vector<std::string>& columns, size_t keys) const;
 
  private:

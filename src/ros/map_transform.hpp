@@ -29,8 +29,9 @@ class MapTransform {
   /// Whether TF has all that publish() looks up.
   bool isReady(const std_msgs::Header& header) const;
 
-  /// With the scan's stamp. Without a new pose map -> odom stays as it was, and map -> base is not
-  /// published. Why nothing was published where it should have been; else empty.
+  /// Publishes with the scan's stamp. Without a new pose map -> odom stays as it was, and map ->
+  /// base is not published. The text says why nothing was published where it should have been; else
+  /// it is empty.
   std::string publish(const std_msgs::Header& header, const ScanResult& scan,
                       const ScanTransforms& transforms);
 

@@ -18,8 +18,8 @@ Pose poseOf(const geometry_msgs::Transform& transform);
 geometry_msgs::TransformStamped toMessage(const Pose& T_parent_child, const std::string& parent,
                                           const std::string& child, const ros::Time& stamp);
 
-/// From the covariance of a sensor's pose (translation, rotation vector about the sensor, map's
-/// axes) to that of the base's, in the same axes.
+/// Turns the covariance of a sensor's pose (translation, rotation vector about the sensor, map's
+/// axes) into that of the base's, in the same axes.
 Matrix6 covarianceOfBase(const Matrix6& covariance, const Pose& T_map_sensor,
                          const Pose& T_base_sensor);
 

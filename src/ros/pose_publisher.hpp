@@ -21,11 +21,12 @@ class PosePublisher {
   PosePublisher(ros::NodeHandle handle, std::string map_frame, std::string base_frame,
                 int path_length);
 
-  /// Of a located scan; `header` is the scan's. A covariance that is not finite, as nothing was to
-  /// be learned in some direction, is published as 1e6 for all. False if the pose is not finite:
-  /// nothing was published.
+  /// Publishes the pose of a located scan; `header` is the scan's. A covariance that is not finite,
+  /// as nothing was to be learned in some direction, is published as 1e6 for all. False if the pose
+  /// is not finite: nothing was published.
   bool publish(const std_msgs::Header& header, const ScanResult& scan, const Pose& T_base_sensor);
-  /// If it has changed and somebody listens. Poses less than 5 cm apart are left out.
+  /// Publishes the path if it has changed and somebody listens. Poses less than 5 cm apart are left
+  /// out.
   void publishPath();
   void reset();
 

@@ -36,7 +36,7 @@ class TransformInput {
 
   const CheckedTransforms& transforms() const { return transforms_; }
   TransformReading reading() const;
-  /// For a clock that has jumped back.
+  /// Forgets all transforms, for a clock that has jumped back.
   void clear() { transforms_.clear(); }
 
  private:

@@ -13,7 +13,7 @@ using Checksums = std::map<std::string, std::string>;
 /// Throws FileError.
 std::string sha256Of(const std::filesystem::path& file);
 
-/// As sha256sum writes it.
+/// The text as sha256sum writes it.
 std::string textOf(const Checksums& checksums);
 
 /// Reads such a text. Throws FileError, also for a name that is not of a file beside it.

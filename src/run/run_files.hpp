@@ -19,13 +19,13 @@ std::string timingsCsv(const std::deque<ScanRecord>& scans);
 /// A row for each pose that the reference knows.
 std::string errorsCsv(const TrajectoryErrors& errors);
 
-/// The same in a few numbers.
+/// The errors in a few numbers.
 Report errorsReport(const TrajectoryErrors& errors);
 
 Report summarise(const RunRecord& run, const MapBuilder& map,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
-/// With all folders above it. Throws FileError.
+/// Makes the folder with all folders above it. Throws FileError.
 void makeFolder(const std::filesystem::path& folder);
 
 struct RunResults {

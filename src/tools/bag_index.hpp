@@ -34,8 +34,8 @@ struct BagIndex {
   std::map<uint64_t, std::string> damaged;
 };
 
-/// Of a bag of version 2.0. Throws BagDamage if the index at the end of the bag cannot be read, and
-/// if the bag has none, which its text says.
+/// The index of a bag of version 2.0. Throws BagDamage if the index at the end of the bag cannot be
+/// read, and if the bag has none, which its text says.
 BagIndex readBagIndex(BagFile& file);
 
 }  // namespace edgevox

@@ -42,7 +42,7 @@ struct BagLoss {
   size_t transforms = 0;  ///< messages
 };
 
-/// In a line each, by the byte of the chunk.
+/// The losses in a line each, by the byte of the chunk.
 std::vector<std::string> textsOf(const std::map<uint64_t, BagLoss>& losses);
 
 /// The clouds of one topic and the transforms of a bag, read without a ROS master. What is damaged
@@ -68,7 +68,7 @@ class BagReader {
   const std::map<uint64_t, BagLoss>& losses() const { return losses_; }
 
  private:
-  /// In the order of their time.
+  /// The entries in the order of their time.
   std::vector<BagEntry> entriesOn(const std::vector<std::string>& topics) const;
   const BagConnection& connectionOf(const BagEntry& entry) const;
   BagCloud readCloud(size_t index, const BagEntry& entry);

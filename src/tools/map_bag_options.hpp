@@ -32,7 +32,8 @@ struct MapBagOptions {
   bool write_occupied = false;
 };
 
-/// Nothing if only the help was asked for, which is printed. Throws UsageError.
+/// The options of a command line; nothing if only the help was asked for, which is printed. Throws
+/// UsageError.
 std::optional<MapBagOptions> parseMapBagOptions(const Arguments& arguments);
 
 /// The configuration in force. Throws ConfigError.

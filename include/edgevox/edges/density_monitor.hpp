@@ -27,7 +27,7 @@ struct DensityWarning {
   double voxel_size = 0.0;  ///< to choose or exceed [m]; 0: none of a map would do
 };
 
-/// In words, with what to do.
+/// The warning in words, with what to do.
 std::string textOf(const DensityWarning& warning);
 
 /// Share of the occupied voxels that are sparse if the voxels are 2^`doublings` times as large as
@@ -53,7 +53,7 @@ class DensityMonitor {
 
   /// Median over the window; NaN if there was no scan.
   double share() const;
-  /// If the median is above kSparseLimit.
+  /// A warning if the median is above kSparseLimit.
   std::optional<DensityWarning> warning() const;
 
  private:

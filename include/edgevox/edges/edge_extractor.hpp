@@ -59,7 +59,7 @@ struct EdgeCount {
   /// share tells that the points lie too far apart for the voxel size.
   size_t sparse = 0;
 
-  /// Of the occupied voxels; 0 if there are none.
+  /// Share of the occupied voxels that are sparse; 0 if there are none.
   double sparseShare() const {
     return occupied > 0 ? static_cast<double>(sparse) / static_cast<double>(occupied) : 0.0;
   }

@@ -27,9 +27,9 @@ class RecentEdges {
 
   /// Voxels of the last scan.
   BitGrid<16> occupied() const;
-  /// Those of them that are edges.
+  /// Voxels of the last scan that are edges.
   BitGrid<16> edgeVoxels() const;
-  /// Centroids of the last scan in these, in their order [m].
+  /// Centroids of the last scan in its edge voxels, in the order of the scan, map frame [m].
   std::vector<Eigen::Vector3f> edgeCentroids() const;
 
  private:

@@ -59,12 +59,12 @@ inline bool inGridRange(const VoxelIndex& v) {
   return ok(v.x) && ok(v.y) && ok(v.z);
 }
 
-/// The same for a point [m]; false if it is not finite.
+/// Whether a point [m] is in the grid's range; false if it is not finite.
 inline bool inGridRange(const Eigen::Vector3d& point, double voxel_size) {
   return (point.array().abs() < (kIndexLimit - 1) * voxel_size).all();
 }
 
-/// The same for where a pose puts the origin; false if any of it is not finite.
+/// Whether a pose puts the origin in the grid's range; false if any of it is not finite.
 inline bool inGridRange(const Pose& pose, double voxel_size) {
   return pose.matrix().allFinite() && inGridRange(Eigen::Vector3d(pose.translation()), voxel_size);
 }
@@ -75,7 +75,7 @@ inline uint64_t packedIndex(const VoxelIndex& v) {
   return bits(v.x) | bits(v.y) << 21 | bits(v.z) << 42;
 }
 
-/// Of packedIndex().
+/// The inverse of packedIndex().
 inline VoxelIndex unpackedIndex(uint64_t packed) {
   const auto index = [](uint64_t bits) {
     return static_cast<int32_t>(bits & (2 * kIndexLimit - 1)) - kIndexLimit;
@@ -94,7 +94,7 @@ inline uint64_t mixBits(uint64_t v) {
 
 inline uint64_t voxelHash(const VoxelIndex& v) { return mixBits(packedIndex(v)); }
 
-/// In [0, 1), the same for a voxel at all times.
+/// A hash in [0, 1), the same for a voxel at all times.
 inline double unitHash(const VoxelIndex& v) {
   return std::ldexp(static_cast<double>(voxelHash(v) >> 11), -53);
 }

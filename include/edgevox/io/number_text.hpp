@@ -5,10 +5,10 @@
 
 namespace edgevox {
 
-/// As printf's "%.*f", whatever the size of the number.
+/// The text that printf gives for "%.*f", whatever the size of the number.
 std::string fixedText(double value, int decimals);
 
-/// As printf's "%.*g": so many significant digits, without zeros at the end.
+/// The text that printf gives for "%.*g": so many significant digits, without zeros at the end.
 std::string shortText(double value, int digits = 6);
 
 }  // namespace edgevox

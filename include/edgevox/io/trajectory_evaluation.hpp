@@ -15,7 +15,7 @@ struct StampMatch {
   size_t reference = 0;
 };
 
-/// For each estimated pose the reference's nearest in time, if it is within 5 ms.
+/// Pairs of each estimated pose and the reference's nearest in time, if that is within 5 ms.
 std::vector<StampMatch> matchStamps(const Trajectory& estimate, const Trajectory& reference);
 
 /// The rigid transform T that makes the sum of |reference_i - T estimate_i|^2 least (Umeyama 1991,
@@ -31,7 +31,7 @@ struct ErrorSummary {
   double p95_deg = 0.0;
 };
 
-/// Of one estimated pose and of the step to it from the one before.
+/// Errors of one estimated pose and of the step to it from the one before.
 struct PoseError {
   double stamp = 0.0;  ///< [s]
   double ape_m = 0.0;  ///< after alignment

@@ -15,7 +15,7 @@ class ScanNeighbours {
  public:
   /// `voxels`: one a point, at the finest size.
   void set(const std::vector<VoxelIndex>& voxels);
-  /// Of a point in `parent`, which is of twice the finest size.
+  /// Whether a point in `parent`, which is of twice the finest size, has no other near it.
   bool isAlone(const VoxelIndex& parent) const;
   size_t bytes() const { return once_.bytes() + twice_.bytes() + more_.bytes(); }
 
@@ -30,7 +30,7 @@ class RecentVoxels {
  public:
   explicit RecentVoxels(int scans) : half_((scans + 1) / 2) {}
 
-  /// To be called before each scan.
+  /// Begins a scan; to be called before each.
   void nextScan();
   /// Whether the voxel is remembered; if not, it is from now on.
   bool findOrInsert(const VoxelIndex& v);

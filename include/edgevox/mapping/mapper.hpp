@@ -21,7 +21,7 @@ class Mapper {
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
 
   const MapBuilder& map() const { return map_; }
-  /// Of the last located scan.
+  /// The edges of the last located scan, by it and those before it.
   const RecentEdges& recentEdges() const { return recent_edges_; }
   /// Brings the labels up to date, for output.
   void finishLabels() { map_.label(); }

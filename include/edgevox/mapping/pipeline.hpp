@@ -33,7 +33,7 @@ class Pipeline {
 
   Mapper& mapper() { return mapper_; }
   const MapBuilder& map() const { return mapper_.map(); }
-  /// Over all scans.
+  /// The density of all scans.
   const DensityMonitor& densityMonitor() const { return density_monitor_; }
 
  private:

@@ -38,7 +38,8 @@ struct MatchResult {
   double fit = 0.0;        ///< mean robust weight of the refined points, 0 where there is no match
   int restarts = 0;
   uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
-  /// Of the last step, on (translation, rotation vector about the sensor), in the map's axes.
+  /// Information of the last step, on (translation, rotation vector about the sensor), in the map's
+  /// axes.
   Matrix6 information = Matrix6::Zero();
   /// hit_ratio >= required_hit_ratio, near enough to the guess, and in the grid's range
   bool accepted = false;
@@ -55,11 +56,11 @@ class Matcher {
   size_t sampleSize() const;
   size_t refinePoints(const ScanSample& sample) const;
 
-  /// From the guess alone, then from restarts around it until one is accepted or the work is too
-  /// much.
+  /// The match from the guess, else from restarts around it until one is accepted or the work is
+  /// too much.
   MatchResult match(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
-  /// From the guess alone.
+  /// The match from the guess alone.
   MatchResult align(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
 
@@ -73,9 +74,9 @@ class Matcher {
   /// where the pose leaves the grid's range.
   MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int coarsest,
                      bool all_voxels) const;
-  /// Of the first `points` of a sample the fraction in occupied voxels of level 1, of those in
-  /// occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If less
-  /// than a quarter of them is known, of that quarter.
+  /// The fraction in occupied voxels of level 1 of those of the first `points` of a sample that are
+  /// in occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If
+  /// these are less than a quarter of `points`, it is the fraction of that quarter.
   static double hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
                          const Pose& T_map_sensor);
 

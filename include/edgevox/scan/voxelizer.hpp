@@ -78,7 +78,7 @@ class Voxelizer {
     uint32_t end;     ///< number of its runs, then their end in sorted_
   };
 
-  /// Of points_.
+  /// A part of points_.
   struct Span {
     uint32_t begin;
     uint32_t end;
@@ -102,7 +102,7 @@ class Voxelizer {
   double farthest() const;  ///< [m]
   void countDropped(const Eigen::Vector3d& point, DroppedPoints& dropped) const;
   uint32_t slotOf(uint64_t corner);
-  /// False if there are more blocks.
+  /// Sorts the runs by block; false if there are more blocks.
   bool sortRuns(size_t max_blocks);
   void collect(size_t max_voxels, VoxelScan& scan);
   void sumPoints(const Span& span);

@@ -7,8 +7,8 @@
 
 namespace edgevox {
 
-/// Whether stamps go forward. One far in the past or in the future may be wrong; a second one after
-/// it shows that the clock has jumped.
+/// Watches whether stamps go forward. One far in the past or in the future may be wrong; a second
+/// one after it shows that the clock has jumped.
 class ClockWatch {
  public:
   enum class Order {

@@ -22,16 +22,16 @@ class MotionModel {
   bool known() const { return last_.has_value(); }
   /// The last sweep; requires known().
   const SweepPose& last() const { return *last_; }
-  /// At the stamp of the last sweep, also when the motion is not known any more.
+  /// The pose at the stamp of the last sweep, also when the motion is not known any more.
   const Pose& T_map_sensor() const { return T_map_sensor_; }
-  /// In the last sweep.
+  /// The motion in the last sweep.
   const Twist& twistInSweep() const { return twist_in_sweep_; }
 
   /// T_map_sensor in the middle of the sweep at `now.time`; `moving`: as before, else it stands.
   Pose predict(const SweepPose& now, bool moving) const;
-  /// In the sweep at `now.time`, for its deskewing, if it is predicted at `guess`.
+  /// The motion in the sweep at `now.time`, for its deskewing, if it is predicted at `guess`.
   Twist predictTwist(const SweepPose& now, const Pose& guess) const;
-  /// The same, if it is at `now.T_map_sensor`; requires known().
+  /// The motion in the sweep if it is at `now.T_map_sensor`; requires known().
   Twist twistInSweepAt(const SweepPose& now) const;
 
   /// Adds a located sweep of a scan with this stamp [s].

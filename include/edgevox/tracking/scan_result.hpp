@@ -27,7 +27,7 @@ struct ScanResult {
   uint64_t number = 0;
   double stamp = 0.0;                    ///< [s]
   Pose T_map_sensor = Pose::Identity();  ///< at the stamp; the last good one if not located()
-  /// Of (translation, rotation vector about the sensor), in the map's axes; m, rad.
+  /// Covariance of (translation, rotation vector about the sensor), in the map's axes; m, rad.
   Matrix6 covariance = Matrix6::Zero();
   double hit_ratio = 0.0;
   double required_hit_ratio = 0.0;
@@ -45,8 +45,8 @@ struct ScanResult {
 
 /// What is known of a scan besides its voxels.
 struct ScanPrior {
-  /// At the stamp, in any smooth frame, for the prediction; without it the velocity is taken as
-  /// constant.
+  /// The sensor's pose at the stamp in any smooth frame, for the prediction; without it the
+  /// velocity is taken as constant.
   std::optional<Pose> T_odom_sensor;
   /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame. Of a
   /// place farther from the origin than half the grid's range (100 km at 20 cm) only the rotation

@@ -48,7 +48,7 @@ class Tracker {
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
-  /// As new.
+  /// Makes the tracker as new.
   void reset();
 
  private:

@@ -28,9 +28,9 @@ struct Thresholds {
 using LabelBlock = size_t (*)(const uint64_t* occupied, const uint32_t* targets, uint32_t* edges,
                               const Thresholds& thresholds);
 
-/// For a block edge of 8, 16 or 32.
+/// The kernel for a block edge of 8, 16 or 32 that any processor can run.
 LabelBlock portableLabelBlock(int block_edge);
-/// Null where AVX2 was not compiled in.
+/// The kernel in AVX2; null where AVX2 was not compiled in.
 LabelBlock avx2LabelBlock(int block_edge);
 
 }  // namespace kernel

@@ -83,7 +83,7 @@ inline void store(T* at, const Vector& v) {
 #define EDGEVOX_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Int16x8{__VA_ARGS__})
 #endif
 
-/// From the gradients (gx, gy, gz, 0) of two cells to their products
+/// Turns the gradients (gx, gy, gz, 0) of two cells into their products
 /// (xx, yy, zz, 0, xy, yz, zx, 0).
 inline void multiplyGradients(const int8_t* gradients, int16_t (*products)[8]) {
   const Int16x8 g = __builtin_convertvector(load<Int8x8>(gradients), Int16x8);

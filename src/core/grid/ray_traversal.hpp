@@ -15,7 +15,7 @@ namespace edgevox {
 /// Walks along a line from voxel to voxel (Amanatides and Woo 1987).
 class RayTraversal {
  public:
-  /// Both ends in voxels: voxel v holds v to v + 1.
+  /// A line between two ends in voxels: voxel v holds v to v + 1.
   RayTraversal(const Eigen::Vector3d& from, const Eigen::Vector3d& to) : at_(voxelAt(from, 1.0)) {
     const VoxelIndex last = voxelAt(to, 1.0);
     left_ = std::abs(last.x - at_.x) + std::abs(last.y - at_.y) + std::abs(last.z - at_.z);
@@ -33,7 +33,7 @@ class RayTraversal {
 
   const VoxelIndex& at() const { return at_; }
 
-  /// False at the end of the line.
+  /// Goes to the next voxel; false at the end of the line.
   bool advance() {
     if (left_-- == 0) return false;
     if (next_[0] < next_[1] && next_[0] < next_[2]) {
