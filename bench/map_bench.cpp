@@ -91,7 +91,7 @@ void refine(State& state, const std::string& name) {
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
-  constexpr int kLevels = MapBuilder::kSurfaceLevels;
+  constexpr int kLevels = MatchMap::kSurfaceLevels;
   const Pose found = matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
   for (auto _ : state)
     benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, found, kLevels, false));

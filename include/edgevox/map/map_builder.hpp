@@ -24,8 +24,6 @@ namespace edgevox {
 /// labels edges on the accumulated occupancy, and selects the voxels that scans are matched to.
 class MapBuilder {
  public:
-  static constexpr int kSurfaceLevels = MatchMap::kSurfaceLevels;
-
   /// `voxel_size` [m] is that of level 0; map.coarsest_voxel fixes the number of levels.
   MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges, int threads);
 
@@ -50,7 +48,7 @@ class MapBuilder {
   bool empty() const { return scans_ == 0; }
   uint32_t scans() const { return scans_; }
 
-  /// 1 <= level <= kSurfaceLevels
+  /// 1 <= level <= MatchMap::kSurfaceLevels
   const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
   /// Voxels of level 0 with at least `min_hits`.
   const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
@@ -138,13 +136,14 @@ class MapBuilder {
   BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
   std::vector<MomentLevel> moments_;
   MatchMap match_map_;
-  std::array<std::vector<uint32_t>, kSurfaceLevels> touched_;  // slots by level - 1, repeated
-  std::array<double, kSurfaceLevels> random_share_{};          // of the voxels of a level
-  std::vector<Eigen::Vector3d> centroids_;                     // of the scan being added
-  std::vector<VoxelIndex> voxels_;                             // of the same, at level 0
-  std::vector<Eigen::Vector3f> to_sensor_;                     // of the same, unit vectors
-  std::vector<uint32_t> slots_;                                // of the same, at one level
-  std::vector<VoxelIndex> cleared_;                            // by the scan being added
+  // slots by level - 1, repeated
+  std::array<std::vector<uint32_t>, MatchMap::kSurfaceLevels> touched_;
+  std::array<double, MatchMap::kSurfaceLevels> random_share_{};  // of the voxels of a level
+  std::vector<Eigen::Vector3d> centroids_;                       // of the scan being added
+  std::vector<VoxelIndex> voxels_;                               // of the same, at level 0
+  std::vector<Eigen::Vector3f> to_sensor_;                       // of the same, unit vectors
+  std::vector<uint32_t> slots_;                                  // of the same, at one level
+  std::vector<VoxelIndex> cleared_;                              // by the scan being added
 };
 
 /// Says that a map is as large as it may be, and what to do.

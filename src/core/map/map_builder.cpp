@@ -55,7 +55,7 @@ MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       lone_voxels_(map.confirm_within),
       match_map_(voxel_size, map.coarsest_voxel) {
-  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
 void MapBuilder::insert(const std::vector<Eigen::Vector3d>& centroids,
@@ -93,9 +93,11 @@ void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
                    return (sensor - c).cast<float>().normalized();
                  });
   addHits();
-  for (int l = 1; l <= kSurfaceLevels; ++l) addMoments(l);
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) addMoments(l);
   if (config_.clear_after > 0) clearSeenThrough(sensor);
-  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateSelected(match_map_.surfaces(l));
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
+    momentLevel(l).updateSelected(match_map_.surfaces(l));
+  }
 }
 
 bool MapBuilder::labelDue() const {
@@ -166,7 +168,7 @@ void MapBuilder::countEdge(int l, const VoxelIndex& v, int change) {
   children = static_cast<uint8_t>(children + change);
   if (held == (children != 0)) return;
   touch(l, slot);
-  if (l < kSurfaceLevels) countEdge(l + 1, coarser(v, 1), change);
+  if (l < MatchMap::kSurfaceLevels) countEdge(l + 1, coarser(v, 1), change);
 }
 
 void MapBuilder::touch(int l, uint32_t slot) {
@@ -175,7 +177,7 @@ void MapBuilder::touch(int l, uint32_t slot) {
 }
 
 void MapBuilder::chooseAnchorsAnew() {
-  for (int l = 1; l <= kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     MomentLevel& level = momentLevel(l);
     const SurfaceLevel& surfaces = match_map_.surfaces(l);
     auto& slots = touched_[static_cast<size_t>(l - 1)];
@@ -232,7 +234,7 @@ void MapBuilder::changeEdges(const BitGrid<16>& targets,
 }
 
 void MapBuilder::selectRandom() {
-  for (int l = 1; l <= kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     const MomentLevel& level = moments(l);
     size_t anchors = 0;
     size_t candidates = 0;
@@ -252,7 +254,9 @@ void MapBuilder::selectRandom() {
 }
 
 void MapBuilder::prepareAll() {
-  for (int l = 1; l <= kSurfaceLevels; ++l) momentLevel(l).updateAll(match_map_.surfaces(l));
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
+    momentLevel(l).updateAll(match_map_.surfaces(l));
+  }
 }
 
 void MapBuilder::clear() {
@@ -274,7 +278,7 @@ void MapBuilder::clear() {
   random_share_ = {};
   match_map_ = MatchMap(voxel_size_, config_.coarsest_voxel);
   moments_.clear();
-  for (int l = 1; l <= kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
 Eigen::Vector3d MapBuilder::centroid(const VoxelIndex& v) const {
@@ -293,7 +297,7 @@ size_t MapBuilder::packedBytes() const {
   for (int l = 1; l < levels(); ++l) {
     bytes += blocksWithBits(match_map_.occupied(l)) * kBitBlockBytes;
   }
-  for (int l = 1; l <= kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     bytes += match_map_.surfaces(l).blocksWithSelection() * kBitBlockBytes +
              moments(l).selectedSurfaces() * kSurfaceBytes;
   }

@@ -111,7 +111,7 @@ void MapBuilder::remove(const VoxelIndex& v) {
   }
   edge_candidates_.reset(v);
   if (match_map_.edgeVoxels().reset(v)) countEdge(1, coarser(v, 1), -1);
-  for (int l = 1; l <= kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     touch(l, match_map_.surfaces(l).slotOf(coarser(v, l)));
   }
   subtractMoments(v);
@@ -122,7 +122,7 @@ void MapBuilder::remove(const VoxelIndex& v) {
   VoxelIndex at = coarser(v, 1);
   bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
   for (int l = 1; !left; ++l) {
-    if (l <= kSurfaceLevels) momentLevel(l).erase(at, match_map_.surfaces(l));
+    if (l <= MatchMap::kSurfaceLevels) momentLevel(l).erase(at, match_map_.surfaces(l));
     BitGrid<8>& bits = match_map_.occupied(l);
     bits.reset(at);
     if (l + 1 == levels()) return;
@@ -151,7 +151,7 @@ void MapBuilder::subtractMoments(const VoxelIndex& v) {
   }
   left.outer += left.count / all.count * (moments(1).moments(slot).outer - all.outer);
   momentLevel(1).setMoments(slot, left);
-  for (int l = 2; l <= kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
+  for (int l = 2; l <= MatchMap::kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
 }
 
 void MapBuilder::sumChildren(int l, const VoxelIndex& v) {

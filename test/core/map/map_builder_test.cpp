@@ -120,7 +120,7 @@ void expectMapOf(const std::vector<Centroids>& scans, const MapBuilder& map,
   EXPECT_TRUE(sameVoxels(hit, voxelsOf(map.hitVoxels())));
   const Voxels edges = labelledAtOnce(hit);
   EXPECT_TRUE(sameVoxels(edges, voxelsOf(map.edgeVoxels())));
-  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
     const Voxels selected = selectedAtOnce(scans, edges, level, config);
     EXPECT_TRUE(sameVoxels(selected, selectedIn(map, level, accumulate(scans, level)))) << level;
     EXPECT_EQ(selected.size(), map.matchMap().surfaces(level).selectedCount());
@@ -264,7 +264,7 @@ TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
   const MapConfig config = withRepresentation(Representation::kAll);
   MapBuilder map = makeMap(config);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
-  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
     const AccumulatedCells cells = accumulate(scans, level);
     EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), selectedIn(map, level, cells)));
   }
@@ -278,7 +278,7 @@ TEST(Representations, RandomSelectsAsManyAsSparse) {
   const auto scans = randomScans(13, 4, {140, 110, 60});
   const MapBuilder sparse = mapOf(scans, withRepresentation(Representation::kSparse));
   const MapBuilder random = mapOf(scans, withRepresentation(Representation::kRandom));
-  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
     const auto expected = static_cast<double>(sparse.matchMap().surfaces(level).selectedCount());
     const auto actual = static_cast<double>(random.matchMap().surfaces(level).selectedCount());
     RecordProperty("sparse_" + std::to_string(level), static_cast<int>(expected));

@@ -169,7 +169,7 @@ TEST_F(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
   map_.label();
   ASSERT_LT(100U, map_.clearedVoxels());
   EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map_.hitVoxels())), voxelsOf(map_.edgeVoxels())));
-  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     const SurfaceLevel& surfaces = map_.matchMap().surfaces(l);
     Voxels children = voxelsOf(map_.edgeVoxels());
     for (VoxelIndex& v : children) v = coarser(v, l);
@@ -196,7 +196,7 @@ TEST_F(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
   map_.label();
   map_.prepareAll();
   const Eigen::Vector3f front = Vector3d(kBoxMin.x(), 0, -0.1).cast<float>();
-  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     const SurfaceLevel& level = map_.matchMap().surfaces(l);
     EXPECT_EQ(0U, level.around(level.voxelOf(front), true).count) << "level " << l;
   }

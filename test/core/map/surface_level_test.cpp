@@ -96,7 +96,7 @@ struct GaussianErrors {
 /// Of a map that has seen no surface from behind.
 GaussianErrors errorsOf(const MapBuilder& map, const std::vector<Centroids>& scans, bool all) {
   GaussianErrors errors;
-  for (int level = 1; level <= MapBuilder::kSurfaceLevels; ++level) {
+  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
     const SurfaceLevel& surfaces = map.matchMap().surfaces(level);
     for (const auto& [v, cell] : accumulate(scans, level)) {
       const uint32_t slot = surfaces.slotOf(v);

@@ -47,7 +47,7 @@ struct Ceiling {
 
 TEST(Sides, OfAThinSlabAreTwoSurfaces) {
   const Ceiling ceiling(8);
-  for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     const SurfaceLevel& surfaces = ceiling.map.matchMap().surfaces(l);
     const MomentLevel& moments = ceiling.map.moments(l);
     const size_t voxels = ceiling.map.matchMap().occupied(l).voxelCount();
@@ -74,7 +74,7 @@ TEST(Sides, PointsMatchTheirOwn) {
     for (const bool above : {true, false}) {
       const Vector3d& sensor = above ? ceiling.kAbove : ceiling.kBelow;
       const Vector3d to_sensor = (sensor - point).normalized();
-      for (int l = 1; l <= MapBuilder::kSurfaceLevels; ++l) {
+      for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
         float distance = 0.0F;
         const SurfaceLevel& level = ceiling.map.matchMap().surfaces(l);
         const Eigen::Vector3f at = point.cast<float>();

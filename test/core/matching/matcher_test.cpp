@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kLevels = MapBuilder::kSurfaceLevels;
+constexpr int kLevels = MatchMap::kSurfaceLevels;
 
 Pose poseOf(const Vector3d& position, double yaw) {
   Pose pose(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
