@@ -78,7 +78,7 @@ class BlockTable {
   }
   size_t next(size_t bucket) const { return (bucket + 1) & (buckets_.size() - 1); }
 
-  /// By another hash if this one needs too long searches.
+  /// Fills the table anew, by another hash if this one needs too long searches.
   void rehash(size_t bucket_count) {
     while (!fill(bucket_count)) seed_ = mixBits(seed_ + 1);
   }
@@ -100,7 +100,7 @@ class BlockTable {
   std::vector<VoxelIndex> blocks_;
 };
 
-/// Without an instruction that some processors lack.
+/// The number of bits set, without an instruction that some processors lack.
 inline size_t bitCount(uint64_t bits) {
   bits -= (bits >> 1) & 0x5555555555555555ULL;
   bits = (bits & 0x3333333333333333ULL) + ((bits >> 2) & 0x3333333333333333ULL);
@@ -149,7 +149,7 @@ class BitGrid {
     return slot != BlockTable::kNone && Layout::test(blocks_[static_cast<size_t>(slot)], v);
   }
 
-  /// True if the voxel was not in the set.
+  /// Adds a voxel; true if it was not in the set.
   bool set(const VoxelIndex& v) {
     Row& row = blocks_[insertBlock(Layout::block(v))][Layout::row(v)];
     const Row bit = bitOf(v);
@@ -158,7 +158,7 @@ class BitGrid {
     return added;
   }
 
-  /// True if the voxel was in the set.
+  /// Takes a voxel out; true if it was in the set.
   bool reset(const VoxelIndex& v) {
     const int32_t slot = table_.find(Layout::block(v));
     if (slot == BlockTable::kNone) return false;
@@ -181,7 +181,7 @@ class BitGrid {
     return last_slot_;
   }
 
-  /// Null when the block holds nothing.
+  /// The bits of a block; null when the block holds nothing.
   const Block* findBlock(const VoxelIndex& block) const {
     const int32_t slot = table_.find(block);
     return slot == BlockTable::kNone ? nullptr : &blocks_[static_cast<size_t>(slot)];
@@ -258,7 +258,7 @@ class BitReader {
   bool known_ = false;
 };
 
-/// From a voxel to a number given at its insertion: where its data are kept. A block holds the
+/// Gives for a voxel a number set at its insertion: where its data are kept. A block holds the
 /// numbers of its voxels and no others, so that a voxel on its own is small.
 template <int kSide>
 class SlotGrid {

@@ -33,7 +33,8 @@ class MapBuilder {
   /// range are ignored and counted, those that stand alone wait for a second hit. Takes out the
   /// voxels that `clear_after` scans have seen through.
   void add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
-  /// Every `label_every` scans; never where only the map's output needs labels.
+  /// Whether it is time to label: every `label_every` scans, never where only the map's output
+  /// needs labels.
   bool labelDue() const;
   /// Labels what has changed since the last labelling. The labels are those that labelling the
   /// whole map would give.
@@ -48,7 +49,7 @@ class MapBuilder {
   bool empty() const { return scans_ == 0; }
   uint32_t scans() const { return scans_; }
 
-  /// 1 <= level <= MatchMap::kSurfaceLevels
+  /// The moments of a level; 1 <= level <= MatchMap::kSurfaceLevels.
   const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
   /// Voxels of level 0 with at least `min_hits`.
   const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
@@ -61,13 +62,13 @@ class MapBuilder {
   size_t loneCentroids() const { return left_out_lone_; }
   /// Centroids left out because the map is as large as `memory`.
   size_t centroidsPastMemory() const { return left_out_full_; }
-  /// Whether it was when the last scan was added.
+  /// Whether the map was as large as `memory` when the last scan was added.
   bool isFull() const { return full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
-  /// What matching needs, packed: bits of all levels and 48 bytes a selected surface.
+  /// Size of what matching needs, packed: bits of all levels and 48 bytes a selected surface.
   size_t packedBytes() const;
-  /// What is held while mapping.
+  /// Size of what is held while mapping.
   size_t bytes() const;
 
  private:

@@ -18,16 +18,16 @@ class MatchMap {
  public:
   static constexpr int kSurfaceLevels = 2;
 
-  /// Both in metres; `coarsest_voxel` fixes the number of levels.
+  /// An empty map; both sizes in metres, `coarsest_voxel` fixes the number of levels.
   MatchMap(double voxel_size, double coarsest_voxel);
 
   int levels() const { return static_cast<int>(occupied_.size()); }
   double voxelSize(int level) const { return voxel_size_ * static_cast<double>(1 << level); }
 
-  /// 1 <= level < levels()
+  /// The bits of a level; 1 <= level < levels().
   const BitGrid<8>& occupied(int level) const { return occupied_[static_cast<size_t>(level)]; }
   BitGrid<8>& occupied(int level) { return occupied_[static_cast<size_t>(level)]; }
-  /// 1 <= level <= kSurfaceLevels
+  /// The surfaces of a level; 1 <= level <= kSurfaceLevels.
   const SurfaceLevel& surfaces(int level) const {
     return surfaces_[static_cast<size_t>(level - 1)];
   }
@@ -35,7 +35,7 @@ class MatchMap {
   const BitGrid<16>& edgeVoxels() const { return edge_voxels_; }
   BitGrid<16>& edgeVoxels() { return edge_voxels_; }
 
-  /// Held in memory.
+  /// Size of what is held in memory.
   size_t bytes() const;
 
  private:

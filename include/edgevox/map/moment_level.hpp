@@ -20,10 +20,10 @@ struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< [m^2]
 
-  /// `count` points at one place.
+  /// The sums over `count` points at one place.
   static Moments at(const Eigen::Vector3d& point, double count);
   Moments& operator+=(const Moments& more);
-  /// Of the same points about another origin.
+  /// The sums over the same points about another origin.
   Moments about(const Eigen::Vector3d& origin) const;
 };
 
@@ -62,7 +62,7 @@ class MomentLevel {
   void erase(const VoxelIndex& v, SurfaceLevel& surfaces);
   /// Computes the surfaces of the selected cells that have changed.
   void updateSelected(SurfaceLevel& surfaces);
-  /// Those of all cells that have changed.
+  /// Computes the surfaces of all cells that have changed.
   void updateAll(SurfaceLevel& surfaces);
   void select(uint32_t slot, bool selected, SurfaceLevel& surfaces);
   /// Sets Cell::flat_axis: the axis nearest to the normal if the voxel is flat.
@@ -72,11 +72,11 @@ class MomentLevel {
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }
-  /// Of the first side, about the voxel's centre.
+  /// The moments of the first side, about the voxel's centre.
   Moments moments(uint32_t slot) const;
   /// Unit normal of the first side, zero if that is not flat.
   Eigen::Vector3d normal(uint32_t slot) const;
-  /// Of the selected voxels.
+  /// The number of surfaces of the selected voxels.
   size_t selectedSurfaces() const;
   size_t bytes() const { return cells_.bytes() + voxels_.bytes(); }
 

@@ -60,9 +60,9 @@ class SurfaceLevel {
   uint32_t slotOf(const VoxelIndex& v) const { return grid_.find(v); }
   const Surface& surface(uint32_t slot) const { return surfaces_[slot]; }
   bool hasBack(uint32_t slot) const { return surfaces_[slot].back_surface != kNone; }
-  /// All slots are below it; some may be free.
+  /// A number above all slots, of which some may be free.
   size_t slotCount() const { return surfaces_.size(); }
-  /// Voxels.
+  /// The number of selected voxels.
   size_t selectedCount() const { return selected_count_; }
   size_t blocksWithSelection() const;
   size_t bytes() const;
@@ -81,10 +81,10 @@ class SurfaceLevel {
   uint32_t insert(const VoxelIndex& v);
   /// A new slot for the back of a voxel's surface.
   uint32_t insertBack(uint32_t slot);
-  /// With its back; the slots are used again.
+  /// Takes out a voxel's surface with its back; the slots are used again.
   void erase(const VoxelIndex& v);
   Surface& surface(uint32_t slot) { return surfaces_[slot]; }
-  /// Of a voxel that has a slot.
+  /// Selects, or not, a voxel that has a slot.
   void setSelected(const VoxelIndex& v, bool selected);
 
  private:
