@@ -238,8 +238,9 @@ class SizeMeasurement {
     return sums;
   }
 
-  /// In the turned grid, as no scan lies along the map's axes. Two windows that share scans agree
-  /// by that: their repeatability is left out. The causes of false edges lie in several scans.
+  /// Measures in the turned grid, as no scan lies along the map's axes. Two windows that share
+  /// scans agree by that: their repeatability is left out. The causes of false edges lie in several
+  /// scans.
   ScanSums measureWindows() {
     const Config& config = options_.config;
     const Pose T_map_grid = turnedGrid(voxel_size_);

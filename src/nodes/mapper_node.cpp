@@ -15,7 +15,7 @@ constexpr double kPoll = 0.002;             // of TF [s]
 constexpr double kLongestLatency = 3600.0;  // more is a scan from a bag [s]
 constexpr double kMapShare = 0.05;          // of the time, for clouds of the map
 
-/// From the arrival of the cloud; 0 if that was on another day or computer [s].
+/// Time since the arrival of the cloud; 0 if that was on another day or computer [s].
 float latencyOf(const VoxelScanStamped& scan) {
   const double seconds = ros::WallTime::now().toSec() - scan.arrival.toSec();
   return seconds > 0 && seconds < kLongestLatency ? static_cast<float>(seconds) : 0.0F;

@@ -39,7 +39,7 @@ struct Heights {
   int32_t high = 0;
 };
 
-/// Of all but the lowest and highest 2 %.
+/// The heights of all but the lowest and highest 2 %.
 Heights heightsOf(const std::vector<VoxelIndex>& voxels) {
   std::vector<int32_t> z(voxels.size());
   std::transform(voxels.begin(), voxels.end(), z.begin(), [](const VoxelIndex& v) { return v.z; });

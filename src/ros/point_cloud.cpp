@@ -51,7 +51,7 @@ std::string fieldNames(const Cloud& cloud) {
   return names.empty() ? "none" : names;
 }
 
-/// For the end of a message that says what is wrong.
+/// The end of a message that says what is wrong.
 std::string where(const Cloud& cloud) {
   return " (cloud of " + std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
          " points, frame '" + cloud.header.frame_id + "'); ";

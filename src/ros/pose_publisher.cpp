@@ -22,7 +22,7 @@ double distance(const geometry_msgs::PoseStamped& a, const geometry_msgs::PoseSt
   return Eigen::Vector3d(p.x - q.x, p.y - q.y, p.z - q.z).norm();
 }
 
-/// Of a velocity from two poses `seconds` apart, in the axes of the second.
+/// The covariance of a velocity from two poses `seconds` apart, in the axes of the second.
 Matrix6 twistCovariance(const Matrix6& a, const Matrix6& b, const Pose& pose, double seconds) {
   Matrix6 to_body = Matrix6::Zero();
   to_body.topLeftCorner<3, 3>() = pose.linear().transpose();

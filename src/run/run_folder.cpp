@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of runs that were saved without checksums, too.
+/// The files of a run, also of one that was saved without checksums.
 constexpr std::array<const char*, 9> kResults = {
     "trajectory.tum", "map_edges.ply", "map_edges.pcd", "map_occupied.ply", "timings.csv",
     "errors.csv",     "errors.json",   "summary.json",  "config.yaml"};
@@ -29,7 +29,7 @@ void move(const fs::path& from, const fs::path& to) {
   if (error && error != std::errc::no_such_file_or_directory) fail(to.parent_path(), error);
 }
 
-/// Of a list that is missing or damaged: none.
+/// The checksums of the folder; none if their list is missing or damaged.
 Checksums formerChecksums(const fs::path& folder) {
   try {
     return readChecksums(folder / RunFolder::kChecksums);

@@ -87,8 +87,8 @@ struct Floor {
   Long2 bits;
 };
 
-/// For numbers in [-kIndexLimit, kIndexLimit): doubles of 2^52 and more have no bits behind the
-/// point, and their lowest bits are those of an integer.
+/// The floor of numbers in [-kIndexLimit, kIndexLimit): doubles of 2^52 and more have no bits
+/// behind the point, and their lowest bits are those of an integer.
 inline Floor floorOf(const Double2& v) {
   constexpr Double2 kWhole = {0x1p52 + kIndexLimit, 0x1p52 + kIndexLimit};
   constexpr Double2 kOne = {1.0, 1.0};
@@ -98,7 +98,7 @@ inline Floor floorOf(const Double2& v) {
   return {nearest - (above ? kOne : Double2{}), reinterpret_cast<Long2>(sum) + above};
 }
 
-/// From the sum of offsets from the voxel's lower corner and of times to their means.
+/// Sets the means by the sum of offsets from the voxel's lower corner and of times.
 inline void setMeans(const Eigen::Vector4f& sum, double voxel_size, ScanVoxel& voxel) {
   const Eigen::Vector4f mean = sum * (1.0F / static_cast<float>(voxel.point_count));
   const VoxelIndex& index = voxel.index;
@@ -377,7 +377,7 @@ void Voxelizer::collect(size_t max_voxels, VoxelScan& scan) {
   last_voxels_ = scan.voxels.size();
 }
 
-/// Without branches on the data, which processors could not foresee.
+/// Sums without branches on the data, which processors could not foresee.
 void Voxelizer::sumPoints(const Span& span) {
   uint16_t* slot_of_cell = slot_of_cell_.data();
   Sum* sums = sums_.data();

@@ -118,7 +118,7 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32
   return request;
 }
 
-/// To the selected surfaces; where that is not convincing, to all.
+/// Aligns to the selected surfaces; where that is not convincing, to all.
 MatchResult Tracker::locate(const ScanSample& sample, const MatchRequest& request,
                             const TrackedMap& tracked, ScanResult& result) {
   const bool published = config_.matcher.mode == MatcherMode::kPublished;
