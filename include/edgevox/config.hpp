@@ -13,6 +13,7 @@ enum class Representation {
   kSparse,  ///< flat anchors, spread over space and normals, and edges where they are missing
   kAll,     ///< all occupied voxels
   kRandom,  ///< as many voxels as kSparse has, chosen by hash: the yardstick for kSparse
+  kEdges,   ///< edge voxels of the accumulated map alone, as in Ryde et al. 2013
 };
 
 enum class EdgeMode {

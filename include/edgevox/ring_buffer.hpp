@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "edgevox/archive.hpp"
+
 namespace edgevox {
 
 /// The last values of a series, as many as it has room for. Memory is taken as they come.
@@ -35,6 +37,16 @@ class RingBuffer {
   const T& newest() const { return (*this)[size() - 1]; }
   /// All values, in any order.
   const std::vector<T>& values() const { return values_; }
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.values_, self.oldest_);
+    if constexpr (Archive::kReads) {
+      if (self.values_.size() > self.capacity_ || self.oldest_ >= self.capacity_) {
+        throw ArchiveError("a series of values is too long");
+      }
+    }
+  }
 
  private:
   size_t capacity_;

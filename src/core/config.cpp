@@ -51,9 +51,10 @@ std::vector<Parameter> parametersOf(Config& c) {
        "band of them; 0 is off"},
       {"edges/instruction_set", choiceOf(c.edges.instruction_set, {"auto", "portable", "avx2"}), 0,
        0, "", "results do not depend on it"},
-      {"map/representation", choiceOf(c.map.representation, {"sparse", "all", "random"}), 0, 0, "",
+      {"map/representation", choiceOf(c.map.representation, {"sparse", "all", "random", "edges"}),
+       0, 0, "",
        "voxels that scans are aligned to: planar anchors and, where these are missing, edges; all; "
-       "or as many as of the first by chance"},
+       "as many as of the first by chance; or edge voxels alone"},
       {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},
       {"map/coarsest_voxel", &c.map.coarsest_voxel, 0.1, 100, "m",
        "largest voxel of the search: how far from the prediction a pose is found",

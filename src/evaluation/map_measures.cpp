@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/scan/scan_sample.hpp"
+#include "edgevox/io/map_file.hpp"
 #include "edgevox/io/number_text.hpp"
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/mapping/pipeline.hpp"
@@ -27,6 +28,8 @@ const char* nameOf(Representation representation) {
       return "all";
     case Representation::kRandom:
       return "random";
+    case Representation::kEdges:
+      return "edges";
   }
   return "";
 }
@@ -146,7 +149,7 @@ class MapTable {
     table_.addRow();
     table_.set("map", nameOf(representation));
     if (representation != Representation::kAll) table_.set("anchors", anchors);
-    addSize(pipeline.map());
+    addSize(pipeline.mapper(), config);
     addErrors(run);
     table_.set("captured", Capture(recording_, options_, config).share(pipeline.map(), run));
     table_.set("ms", mean(run.milliseconds));
@@ -155,8 +158,10 @@ class MapTable {
   const Table& table() const { return table_; }
 
  private:
-  void addSize(const MapBuilder& map) {
-    const auto bytes = static_cast<double>(map.packedBytes());
+  void addSize(const Mapper& mapper, const Config& config) {
+    const MapBuilder& map = mapper.map();
+    const auto bytes =
+        static_cast<double>(mapFileBytes(MapContent::kCompact, mapper, config, "map").size());
     if (table_.rows() == 1) all_bytes_ = bytes;
     table_.set("map_mb", bytes / 1e6);
     table_.set("smaller", all_bytes_ / bytes);

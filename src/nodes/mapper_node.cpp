@@ -173,11 +173,12 @@ void MapperNode::publishMap() {
 bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
   const std::string folder = request.folder.empty() ? parameters_.output : request.folder;
   std::unique_lock<std::mutex> lock(mutex_);
-  MapBuilder map = mapper_.map();
+  Mapper mapper = mapper_;
   const RunRecord run = run_;
   lock.unlock();
   try {
-    response.message = saveRun(folder, parameters_.config, run, map);
+    response.message =
+        saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0, mapper);
     response.success = static_cast<uint8_t>(true);
     ROS_INFO_STREAM(response.message);
   } catch (const std::exception& error) {

@@ -61,7 +61,6 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("edge voxels of the scan", last_.edge_voxels);
   status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
   status.add("occupied voxels of the map", map.hitVoxels().voxelCount());
-  status.addf("map packed [MB]", "%.2f", static_cast<double>(map.packedBytes()) / 1e6);
   status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
   status.add("centroids alone, left out", map.loneCentroids());
   status.add("centroids past map/memory, left out", map.centroidsPastMemory());

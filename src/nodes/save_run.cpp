@@ -7,7 +7,7 @@
 namespace edgevox {
 
 std::string saveRun(const std::string& folder, const Config& config, const RunRecord& run,
-                    MapBuilder& map) {
+                    const std::string& map_frame, bool full, Mapper& mapper) {
   if (folder.empty()) {
     throw FileError(
         "no folder to save the map to: give one in the request, or set the parameter "
@@ -16,9 +16,9 @@ std::string saveRun(const std::string& folder, const Config& config, const RunRe
   if (folder.front() != '/') {
     throw FileError("the folder '" + folder + "' is not absolute; begin it with /");
   }
-  map.label();
-  writeRun(folder, {config, run, map});
-  return "saved " + std::to_string(map.edgeVoxels().voxelCount()) + " edge voxels and " +
+  writeRun(folder,
+           {config, run, &mapper, map_frame, full ? MapContent::kFull : MapContent::kCompact});
+  return "saved " + std::to_string(mapper.map().edgeVoxels().voxelCount()) + " edge voxels and " +
          std::to_string(run.located()) + " poses to " + folder;
 }
 

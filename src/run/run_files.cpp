@@ -104,7 +104,7 @@ double peakMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void addMap(const MapBuilder& map, Report& report) {
+void addMap(const MapBuilder& map, size_t map_bytes, Report& report) {
   const uint64_t occupied = map.hitVoxels().voxelCount();
   const uint64_t edges = map.edgeVoxels().voxelCount();
   report.add("occupied_voxels", occupied);
@@ -113,9 +113,30 @@ void addMap(const MapBuilder& map, Report& report) {
   report.add("cleared_voxels", uint64_t{map.clearedVoxels()});
   report.add("lone_centroids", uint64_t{map.loneCentroids()});
   report.add("centroids_past_memory", uint64_t{map.centroidsPastMemory()});
-  report.add("map_bytes", uint64_t{map.packedBytes()});
+  report.add("map_bytes", uint64_t{map_bytes});
   report.add("map_bytes_working", uint64_t{map.bytes()});
-  report.add("peak_rss_mb", peakMegabytes());
+}
+
+/// What becomes map.edgevox.
+struct MapFiles {
+  std::string content;
+  size_t compact_bytes = 0;
+};
+
+/// A full one is taken before the labels are brought up to date, which mapping on would not do.
+MapFiles mapFilesOf(const RunResults& results) {
+  MapFiles files;
+  if (results.mapper == nullptr) return files;
+  const auto bytesOf = [&](MapContent content) {
+    return mapFileBytes(content, *results.mapper, results.config, results.map_frame);
+  };
+  const bool full = results.content == MapContent::kFull;
+  if (full) files.content = bytesOf(MapContent::kFull);
+  results.mapper->finishLabels();
+  std::string compact = bytesOf(MapContent::kCompact);
+  files.compact_bytes = compact.size();
+  if (!full) files.content = std::move(compact);
+  return files;
 }
 
 }  // namespace
@@ -162,12 +183,13 @@ Report errorsReport(const TrajectoryErrors& errors) {
   return report;
 }
 
-Report summarise(const RunRecord& run, const MapBuilder& map,
+Report summarise(const RunRecord& run, const MapBuilder* map, size_t map_bytes,
                  const std::optional<TrajectoryErrors>& errors) {
   Report report;
   addScans(run, report);
   addTimes(run.scans, report);
-  addMap(map, report);
+  if (map != nullptr) addMap(*map, map_bytes, report);
+  report.add("peak_rss_mb", peakMegabytes());
   if (errors) report.append(errorsReport(*errors));
   addPoints(run, report);
   return report;
@@ -182,18 +204,24 @@ void makeFolder(const fs::path& folder) {
 }
 
 Report writeRun(const fs::path& folder, const RunResults& results) {
-  const auto& [config, run, map, occupied_too, errors] = results;
-  const Report summary = summarise(run, map, errors);
+  const MapBuilder* map = results.mapper == nullptr ? nullptr : &results.mapper->map();
+  const MapFiles maps = mapFilesOf(results);
+  const Report summary = summarise(results.run, map, maps.compact_bytes, results.errors);
   makeFolder(folder);
   RunFolder files(folder);
-  writeFile(files.stage("config.yaml"), yamlText(config));
-  writeTum(files.stage("trajectory.tum"), run.trajectory());
-  const auto edges = centroidsOf(map, map.edgeVoxels());
-  writePly(files.stage("map_edges.ply"), edges);
-  writePcd(files.stage("map_edges.pcd"), edges);
-  if (occupied_too) writePly(files.stage("map_occupied.ply"), centroidsOf(map, map.hitVoxels()));
-  writeFile(files.stage("timings.csv"), timingsCsv(run.scans));
-  if (errors) writeFile(files.stage("errors.csv"), errorsCsv(*errors));
+  writeFile(files.stage("config.yaml"), yamlText(results.config));
+  writeTum(files.stage("trajectory.tum"), results.run.trajectory());
+  if (map != nullptr) {
+    const auto edges = centroidsOf(*map, map->edgeVoxels());
+    writePly(files.stage("map_edges.ply"), edges);
+    writePcd(files.stage("map_edges.pcd"), edges);
+    writeFile(files.stage("map.edgevox"), maps.content);
+  }
+  if (map != nullptr && results.occupied_too) {
+    writePly(files.stage("map_occupied.ply"), centroidsOf(*map, map->hitVoxels()));
+  }
+  writeFile(files.stage("timings.csv"), timingsCsv(results.run.scans));
+  if (results.errors) writeFile(files.stage("errors.csv"), errorsCsv(*results.errors));
   writeFile(files.stage("summary.json"), summary.json());
   files.replace();
   return summary;

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "edgevox/config.hpp"
+#include "edgevox/io/map_file.hpp"
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/mapping/mapper.hpp"
 #include "run/report.hpp"
 #include "run/run_record.hpp"
 
@@ -22,7 +24,8 @@ std::string errorsCsv(const TrajectoryErrors& errors);
 /// The errors in a few numbers.
 Report errorsReport(const TrajectoryErrors& errors);
 
-Report summarise(const RunRecord& run, const MapBuilder& map,
+/// The map, if there is one, with its labels up to date; `map_bytes`: of its compact file.
+Report summarise(const RunRecord& run, const MapBuilder* map, size_t map_bytes,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
 /// Makes the folder with all folders above it. Throws FileError.
@@ -31,8 +34,10 @@ void makeFolder(const std::filesystem::path& folder);
 struct RunResults {
   const Config& config;
   const RunRecord& run;
-  const MapBuilder& map;      ///< with its labels up to date
-  bool occupied_too = false;  ///< also write map_occupied.ply
+  Mapper* mapper = nullptr;  ///< its labels are brought up to date; null where nothing was mapped
+  std::string map_frame = "map";
+  MapContent content = MapContent::kCompact;  ///< of map.edgevox
+  bool occupied_too = false;                  ///< also write map_occupied.ply
   std::optional<TrajectoryErrors> errors = std::nullopt;
 };
 

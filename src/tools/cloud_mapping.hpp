@@ -21,9 +21,9 @@ class CloudMapping {
   CloudMapping(const Config& config, const SensorFrames& frames, Console& console);
 
   void add(size_t index, const BagCloud& cloud);
-  /// Brings the map's labels up to date; no clouds after that.
-  void finish() { pipeline_.mapper().finishLabels(); }
+  Pipeline& pipeline() { return pipeline_; }
 
+  const Config& config() const { return pipeline_.config(); }
   const RunRecord& run() const { return run_; }
   const MapBuilder& map() const { return pipeline_.map(); }
   const DensityMonitor& densityMonitor() const { return pipeline_.densityMonitor(); }

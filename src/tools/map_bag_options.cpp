@@ -24,7 +24,8 @@ po::options_description describe() {
       "folder for trajectory, map, configuration, timings and summary; made if need be");
   add("topic", po::value<Text>(), "of the clouds (default: the only one of the bag)");
   add("config", po::value<Text>(), "indoor, outdoor, terrestrial, or a YAML file");
-  add("representation", po::value<Text>(), "sparse, all or random: what scans are aligned to");
+  add("representation", po::value<Text>(),
+      "sparse, all, random or edges: what scans are aligned to");
   add("threads", po::value<Text>(), "results do not depend on it");
   add("set", po::value<Texts>()->composing()->multitoken(),
       "name=value ..., parameters of the configuration");
@@ -33,6 +34,10 @@ po::options_description describe() {
   add("odom-frame", po::value<Text>(), "frame of a smooth odometry in /tf, for the prediction");
   add("stride", po::value<int64_t>()->default_value(1), "use every N-th cloud");
   add("skip", po::value<Texts>()->composing(), "A-B, leave out clouds A to B, counted from 0");
+  add("map", po::value<Text>(), "a full map file: mapping goes on where it was saved");
+  add("localize", po::value<Text>(),
+      "a map file: the clouds are located in it, it stays as it is, and no map is written");
+  add("full", "save map.edgevox with all that mapping needs to go on (see --map)");
   add("occupied", "also write map_occupied.ply with all occupied voxels");
   return description;
 }
@@ -61,6 +66,9 @@ MapBagOptions optionsOf(const po::variables_map& given) {
   options.config = textOf(given, "config");
   options.reference = textOf(given, "reference");
   options.frames = {textOf(given, "base-frame"), textOf(given, "odom-frame")};
+  options.map = textOf(given, "map");
+  options.localize = textOf(given, "localize");
+  options.full = given.count("full") > 0;
   options.write_occupied = given.count("occupied") > 0;
   options.stride = countOf(given, "stride", 1);
   for (const std::string& text : textsOf(given, "skip")) options.skipped.push_back(rangeOf(text));
@@ -71,6 +79,9 @@ MapBagOptions optionsOf(const po::variables_map& given) {
   }
   for (const std::string& text : textsOf(given, "set")) options.settings.push_back(text);
   if (options.bag.empty()) throw UsageError("name the bag to map: map_bag BAG --output FOLDER");
+  if (!options.map.empty() && !options.localize.empty()) {
+    throw UsageError("--map goes on with a map, --localize leaves it as it is: choose one");
+  }
   if (options.output.empty()) throw UsageError("name a folder for the results: --output FOLDER");
   return options;
 }
@@ -83,8 +94,8 @@ std::optional<MapBagOptions> parseMapBagOptions(const Arguments& arguments) {
   return optionsOf(*given);
 }
 
-Config configOf(const MapBagOptions& options) {
-  Config config;
+Config configOf(const MapBagOptions& options, const Config& defaults) {
+  Config config = defaults;
   if (!options.config.empty()) applyConfigFile(findConfigFile(options.config), config);
   for (const std::string& setting : options.settings) applySetting(setting, config);
   validate(config);

@@ -29,6 +29,9 @@ struct MapBagOptions {
   FrameNames frames;
   size_t stride = 1;  ///< use every stride-th cloud
   std::vector<CloudRange> skipped;
+  std::string map;       ///< a full map file to go on with; empty: none
+  std::string localize;  ///< a map file to locate the clouds in; empty: none
+  bool full = false;     ///< save a full map file, not a compact one
   bool write_occupied = false;
 };
 
@@ -36,8 +39,8 @@ struct MapBagOptions {
 /// UsageError.
 std::optional<MapBagOptions> parseMapBagOptions(const Arguments& arguments);
 
-/// The configuration in force. Throws ConfigError.
-Config configOf(const MapBagOptions& options);
+/// The configuration in force: the defaults, then the file, then the settings. Throws ConfigError.
+Config configOf(const MapBagOptions& options, const Config& defaults = {});
 
 bool isUsed(size_t cloud, const MapBagOptions& options);
 

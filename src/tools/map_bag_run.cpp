@@ -48,9 +48,8 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   });
   for (const std::string& text : textsOf(bag.losses())) console.print(text);
   requireScans(bag, mapping);
-  mapping.finish();
   if (const auto warning = mapping.densityMonitor().warning()) console.print(textOf(*warning));
-  if (mapping.map().isFull()) console.print(fullText(configOf(options).map));
+  if (mapping.map().isFull()) console.print(fullText(mapping.config().map));
 }
 
 /// The results are kept even if the reference is of no use.
@@ -83,7 +82,11 @@ std::string lossOf(const BagReader& bag, const MapBagOptions& options) {
 }  // namespace
 
 MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
-  const Config config = configOf(options);
+  const std::string map_file = options.map.empty() ? options.localize : options.map;
+  std::optional<MapFile> map;
+  if (!map_file.empty()) map = MapFile::read(map_file);
+  const Config config = configOf(options, map ? map->config() : Config());
+  if (map) map->requireSameMap(config);
   std::optional<Trajectory> reference;
   if (!options.reference.empty()) reference = readTum(options.reference);
   BagReader bag(options.bag, options.topic);
@@ -92,9 +95,15 @@ MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
   CheckedTransforms transforms(ros::Duration(kTransformCache), config.mapper.clock_leap);
   readTransforms(bag, transforms, console);
   CloudMapping mapping(config, SensorFrames(transforms.buffer(), options.frames), console);
+  if (!options.map.empty()) map->restore(mapping.pipeline().mapper());
+  if (!options.localize.empty()) mapping.pipeline().localizeIn(map->matchMap());
+  map.reset();
   mapClouds(bag, options, console, mapping);
 
-  const Report summary = writeResults(options, reference, {config, mapping.run(), mapping.map()});
+  RunResults results{config, mapping.run()};
+  if (options.localize.empty()) results.mapper = &mapping.pipeline().mapper();
+  results.content = options.full ? MapContent::kFull : MapContent::kCompact;
+  const Report summary = writeResults(options, reference, results);
   return {summary, lossOf(bag, options)};
 }
 

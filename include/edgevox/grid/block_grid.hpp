@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
+#include "edgevox/archive.hpp"
 #include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
@@ -68,7 +70,17 @@ class BlockTable {
     return buckets_.capacity() * sizeof(int32_t) + blocks_.capacity() * sizeof(VoxelIndex);
   }
 
+  /// The blocks in their order; the hash is made anew. Throws ArchiveError if one is out of the
+  /// grid's range or there twice.
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.blocks_);
+    if constexpr (Archive::kReads) self.insertAgain();
+  }
+
  private:
+  void insertAgain();
+
   static constexpr size_t kMinBuckets = 64;
   // Half full, a table of a million random blocks has no search as long.
   static constexpr size_t kMaxProbes = 128;
@@ -226,8 +238,22 @@ class BitGrid {
 
   size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block); }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.table_);
+    if constexpr (Archive::kReads) self.makeBlocks();
+    for (size_t slot = 0; slot < self.used_; ++slot) bytes(self.blocks_[slot]);
+  }
+
  private:
   static Row bitOf(const VoxelIndex& v) { return static_cast<Row>(1U << Layout::column(v)); }
+
+  void makeBlocks() {
+    used_ = table_.size();
+    while (blocks_.size() < used_) blocks_.emplace_back();
+    last_slot_ = 0;
+    if (used_ > 0) last_index_ = table_.block(0);
+  }
 
   BlockTable table_;
   std::deque<Block> blocks_;  // the first used_ belong to the table's slots
@@ -273,6 +299,7 @@ class SlotGrid {
     void set(int cell) { words_[wordOf(cell)] |= uint64_t{1} << (cell & 63); }
     void reset(int cell) { words_[wordOf(cell)] &= ~(uint64_t{1} << (cell & 63)); }
     void flip(int cell) { words_[wordOf(cell)] ^= uint64_t{1} << (cell & 63); }
+    uint64_t word(size_t at) const { return words_[at]; }
     bool any() const {
       return std::any_of(words_.begin(), words_.end(), [](uint64_t word) { return word != 0; });
     }
@@ -283,6 +310,19 @@ class SlotGrid {
 
     static constexpr size_t kWords = Layout::kVoxels / 64;
     static size_t wordOf(int cell) { return static_cast<size_t>(cell >> 6); }
+    bool isSubsetOf(const Bits& other) const {
+      return std::equal(words_.begin(), words_.end(), other.words_.begin(),
+                        [](uint64_t a, uint64_t b) { return (a & ~b) == 0; });
+    }
+    size_t count() const {
+      return std::accumulate(words_.begin(), words_.end(), size_t{0},
+                             [](size_t sum, uint64_t word) { return sum + bitCount(word); });
+    }
+
+    template <typename Self, typename Archive>
+    static void archive(Self& self, Archive& bytes) {
+      bytes(self.words_);
+    }
 
    private:
     std::array<uint64_t, kWords> words_{};
@@ -295,6 +335,20 @@ class SlotGrid {
 
     size_t rank(int cell) const { return before[Bits::wordOf(cell)] + occupied.countBefore(cell); }
     uint32_t slotOf(int cell) const { return slots[rank(cell)]; }
+
+    template <typename Self, typename Archive>
+    static void archive(Self& self, Archive& bytes) {
+      bytes(self.occupied, self.slots);
+      if constexpr (Archive::kReads) self.countWords();
+    }
+
+   private:
+    void countWords() {
+      if (slots.size() != occupied.count()) throw ArchiveError("a block lacks a voxel");
+      for (size_t w = 1; w < Bits::kWords; ++w) {
+        before[w] = static_cast<uint16_t>(before[w - 1] + bitCount(occupied.word(w - 1)));
+      }
+    }
   };
 
   /// The voxel's slot; a new voxel gets `next`.
@@ -349,7 +403,25 @@ class SlotGrid {
 
   size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block) + slot_bytes_; }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.table_);
+    if constexpr (Archive::kReads) self.makeBlocks();
+    for (size_t block = 0; block < self.blockCount(); ++block) bytes(self.blocks_[block]);
+    if constexpr (Archive::kReads) self.countSlotBytes();
+  }
+
  private:
+  void makeBlocks() {
+    blocks_.clear();
+    while (blocks_.size() < table_.size()) blocks_.emplace_back();
+    last_ = kNoBlock;
+  }
+  void countSlotBytes() {
+    slot_bytes_ = 0;
+    for (const Block& block : blocks_) slot_bytes_ += block.slots.capacity() * sizeof(uint32_t);
+  }
+
   static constexpr size_t kNoBlock = static_cast<size_t>(-1);
 
   Block& blockOf(const VoxelIndex& block) {

@@ -32,6 +32,19 @@ class Pool {
   size_t size() const { return size_; }
   size_t bytes() const { return chunks_.size() * sizeof(Chunk); }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    uint64_t size = self.size();
+    bytes(size);
+    if constexpr (Archive::kReads) {
+      self = {};
+      bytes.require(size);  // every element is a byte at least
+      for (uint64_t i = 0; i < size; ++i) bytes(self.grow());
+    } else {
+      for (size_t i = 0; i < size; ++i) bytes(self[i]);
+    }
+  }
+
  private:
   static constexpr size_t kChunk = 1024;
   using Chunk = std::array<T, kChunk>;

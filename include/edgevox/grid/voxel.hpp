@@ -27,6 +27,10 @@ struct VoxelIndex {
     if (a.y != b.y) return a.y < b.y;
     return a.x < b.x;
   }
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.x, self.y, self.z);
+  }
 };
 
 /// Every index that enters a grid lies in [-kIndexLimit, kIndexLimit); 52 km at 5 cm.
@@ -52,6 +56,20 @@ inline Eigen::Vector3d voxelCentre(const VoxelIndex& v, double size) {
 /// The voxel 2^levels times as large that holds v.
 inline VoxelIndex coarser(const VoxelIndex& v, int levels) {
   return {v.x >> levels, v.y >> levels, v.z >> levels};
+}
+
+/// Calls visit(child) for the 8^levels voxels in v that are 2^levels times smaller: x first, then
+/// y, z, in each halving.
+template <typename Visit>
+void forEachChild(const VoxelIndex& v, int levels, const Visit& visit) {
+  for (int i = 0; i < 8; ++i) {
+    const VoxelIndex child{2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
+    if (levels == 1) {
+      visit(child);
+    } else {
+      forEachChild(child, levels - 1, visit);
+    }
+  }
 }
 
 inline bool inGridRange(const VoxelIndex& v) {

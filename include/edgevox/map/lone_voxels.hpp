@@ -37,6 +37,11 @@ class RecentVoxels {
   void clear();
   size_t bytes() const { return recent_.bytes() + older_.bytes(); }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.age_, self.recent_, self.older_);
+  }
+
  private:
   int half_;  // [scans]
   int age_ = 0;

@@ -44,6 +44,8 @@ class MapBuilder {
   void clear();
 
   const MatchMap& matchMap() const { return match_map_; }
+  /// The same with its edges and hit voxels: to save, to draw, to convert. label() comes first.
+  MatchMap completeMap() const;
   int levels() const { return match_map_.levels(); }
   double voxelSize(int level) const { return match_map_.voxelSize(level); }
   bool empty() const { return scans_ == 0; }
@@ -66,10 +68,20 @@ class MapBuilder {
   bool isFull() const { return full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
-  /// Size of what matching needs, packed: bits of all levels and 48 bytes a selected surface.
-  size_t packedBytes() const;
   /// Size of what is held while mapping.
   size_t bytes() const;
+
+  /// All of its state: a map that is read goes on as the one written would have.
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.scans_, self.ignored_, self.cleared_count_, self.left_out_lone_, self.left_out_full_,
+          self.full_, self.lone_voxels_, self.hit_grid_, self.hits_, self.free_hits_,
+          self.hit_voxels_, self.edge_candidates_, self.changed_, self.match_map_,
+          self.random_share_);
+    for (auto& level : self.moments_) bytes(level);
+    bytes(self.touched_);
+    if constexpr (Archive::kReads) self.checkRead();
+  }
 
  private:
   struct Hit {
@@ -79,8 +91,15 @@ class MapBuilder {
     uint32_t hits = 0;
     uint32_t last_pass = 0;  // scan that last saw through it
     uint32_t passes = 0;     // scans that did since the last hit
+
+    template <typename Self, typename Archive>
+    static void archive(Self& self, Archive& bytes) {
+      bytes(self.sum, self.count, self.last_scan, self.hits, self.last_pass, self.passes);
+    }
   };
   struct Ray;
+
+  void checkRead() const;
 
   /// Makes centroids_ and voxels_ of those in range.
   void setPoints(const std::vector<Eigen::Vector3d>& centroids);
@@ -108,10 +127,11 @@ class MapBuilder {
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
   /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
   void countEdge(int level, const VoxelIndex& v, int change);
-  /// The block of this voxel is due for a choice of anchors.
+  /// The block of this voxel is due for a choice of what is selected.
   void touch(int level, uint32_t slot);
   void chooseAnchorsAnew();
   void selectRandom();
+  void selectEdges();
   MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
   void select(int level, uint32_t slot, bool selected) {
     momentLevel(level).select(slot, selected, match_map_.surfaces(level));

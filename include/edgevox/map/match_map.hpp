@@ -10,6 +10,19 @@
 
 namespace edgevox {
 
+/// A voxel of the finest size on a geometric edge.
+struct EdgeVoxel {
+  VoxelIndex voxel;
+  Eigen::Vector3f centroid;   ///< of the points in it [m]
+  Eigen::Vector3f direction;  ///< along the edge, see edgeDirections()
+};
+
+/// A voxel of the finest size and the centroid of the points in it [m].
+struct VoxelPoint {
+  VoxelIndex voxel;
+  Eigen::Vector3f centroid;
+};
+
 /// What scans are matched to, a value: a multi-resolution occupied voxel list (Ryde and Hu 2010).
 /// Level k has voxels of voxel_size * 2^k. All levels from 1 on hold the bits of all occupied
 /// voxels, for the search; levels 1 to kSurfaceLevels hold surfaces, for the refinement; level 0
@@ -34,15 +47,35 @@ class MatchMap {
   SurfaceLevel& surfaces(int level) { return surfaces_[static_cast<size_t>(level - 1)]; }
   const BitGrid<16>& edgeVoxels() const { return edge_voxels_; }
   BitGrid<16>& edgeVoxels() { return edge_voxels_; }
+  /// The edge voxels as they are saved, in the order of an octree; none while mapping goes on.
+  const std::vector<EdgeVoxel>& edges() const { return edges_; }
+  std::vector<EdgeVoxel>& edges() { return edges_; }
+  /// With the representation `edges` the voxels that share one of level 1 with an edge, saved and
+  /// in order as these: together they tell the surfaces.
+  const std::vector<VoxelPoint>& besideEdges() const { return beside_edges_; }
+  std::vector<VoxelPoint>& besideEdges() { return beside_edges_; }
+  /// All occupied voxels of level 0; while mapping goes on the builder has them.
+  const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
+  BitGrid<16>& hitVoxels() { return hit_voxels_; }
 
   /// Size of what is held in memory.
   size_t bytes() const;
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    for (int l = 1; l < self.levels(); ++l) bytes(self.occupied(l));
+    for (auto& level : self.surfaces_) bytes(level);
+    bytes(self.edge_voxels_);
+  }
 
  private:
   double voxel_size_;
   std::vector<BitGrid<8>> occupied_;  // [0] is not used
   std::vector<SurfaceLevel> surfaces_;
   BitGrid<16> edge_voxels_;
+  BitGrid<16> hit_voxels_;
+  std::vector<EdgeVoxel> edges_;
+  std::vector<VoxelPoint> beside_edges_;
 };
 
 }  // namespace edgevox

@@ -10,22 +10,10 @@
 
 #include "edgevox/grid/pool.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/surface.hpp"
 #include "edgevox/map/surface_level.hpp"
 
 namespace edgevox {
-
-/// Sums over points about some origin.
-struct Moments {
-  double count = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< [m]
-  Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< [m^2]
-
-  /// The sums over `count` points at one place.
-  static Moments at(const Eigen::Vector3d& point, double count);
-  Moments& operator+=(const Moments& more);
-  /// The sums over the same points about another origin.
-  Moments about(const Eigen::Vector3d& origin) const;
-};
 
 /// The sums over centroids from which the surfaces of a level are computed, in the same slots.
 /// Which of them are `selected` depends on the representation of the map.
@@ -44,6 +32,13 @@ class MomentLevel {
     bool stale = false;           ///< changed since its surface was computed
     bool is_back = false;         ///< only sums, count and view are its own
     bool selected = false;        ///< for matching; a back surface follows its voxel
+
+    template <typename Self, typename Archive>
+    static void archive(Self& self, Archive& bytes) {
+      bytes(self.sum, self.outer, self.view, self.count, self.last_scan, self.hits,
+            self.edge_children, self.flat_axis, self.anchor, self.stale, self.is_back,
+            self.selected);
+    }
   };
   static constexpr int8_t kNotFlat = -1;
 
@@ -79,6 +74,13 @@ class MomentLevel {
   /// The number of surfaces of the selected voxels.
   size_t selectedSurfaces() const;
   size_t bytes() const { return cells_.bytes() + voxels_.bytes(); }
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.cells_, self.voxels_, self.stale_, self.stale_unselected_);
+  }
+  /// Throws ArchiveError unless it fits to `surfaces`, when both have been read.
+  void checkRead(const SurfaceLevel& surfaces) const;
 
  private:
   void makeCell(uint32_t slot, const VoxelIndex& v);

@@ -27,6 +27,11 @@ struct Surface {
 
   static constexpr uint32_t kNone = 0xffffffff;
   bool facesAway(const Eigen::Vector3f& to_sensor) const { return side.dot(to_sensor) < -1.0F; }
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.mean, self.information, self.side, self.back_surface);
+  }
 };
 
 /// The surfaces in voxels of one size, found by voxel. Scans are matched to the `selected` ones or,
@@ -59,17 +64,20 @@ class SurfaceLevel {
   /// The slot of the first surface of a voxel, kNone if there is none.
   uint32_t slotOf(const VoxelIndex& v) const { return grid_.find(v); }
   const Surface& surface(uint32_t slot) const { return surfaces_[slot]; }
+  bool isSelected(const VoxelIndex& v) const;
   bool hasBack(uint32_t slot) const { return surfaces_[slot].back_surface != kNone; }
   /// A number above all slots, of which some may be free.
   size_t slotCount() const { return surfaces_.size(); }
   /// The number of selected voxels.
   size_t selectedCount() const { return selected_count_; }
-  size_t blocksWithSelection() const;
   size_t bytes() const;
 
   /// The block of 8 voxels a side that holds a voxel.
   size_t blockOf(const VoxelIndex& v) const {
     return static_cast<size_t>(grid_.findBlock(Grid::Layout::block(v)));
+  }
+  bool hasBlock(const VoxelIndex& v) const {
+    return grid_.findBlock(Grid::Layout::block(v)) != BlockTable::kNone;
   }
   /// Calls visit(slot) for the voxels of a block in a fixed order.
   template <typename Visit>
@@ -87,9 +95,16 @@ class SurfaceLevel {
   /// Selects, or not, a voxel that has a slot.
   void setSelected(const VoxelIndex& v, bool selected);
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.grid_, self.selected_, self.surfaces_, self.free_);
+    if constexpr (Archive::kReads) self.checkRead();
+  }
+
  private:
   using Grid = SlotGrid<8>;
 
+  void checkRead();
   uint32_t nextSlot() const;
   uint32_t takeSlot();
 

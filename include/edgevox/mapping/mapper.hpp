@@ -28,8 +28,14 @@ class Mapper {
   /// Forgets map and motion; the next scan is the first.
   void reset();
 
+  /// All but the recent edges.
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.tracker_, self.map_);
+    if constexpr (Archive::kReads) self.recent_edges_.clear();
+  }
+
  private:
-  ScanResult stale(const VoxelScan& scan, bool ahead) const;
   void clockJumped();
   void insert(const VoxelScan& scan, ScanResult& result);
 

@@ -11,6 +11,11 @@ namespace edgevox {
 struct Twist {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.linear, self.angular);
+  }
 };
 
 /// The rotation by |v| about v [rad].

@@ -22,6 +22,11 @@ class Acceptance {
   void addHitRatio(double ratio) { hit_ratios_.push(ratio); }
   void addSigma(double sigma) { sigmas_.push(sigma); }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.hit_ratios_, self.sigmas_);
+  }
+
  private:
   static constexpr size_t kWindow = 31;
 

@@ -42,6 +42,11 @@ class ClockWatch {
   void accept(double stamp) { last_ = stamp; }
   void reset() { *this = ClockWatch(least_jump_, leap_); }
 
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.last_, self.previous_, self.suspected_);
+  }
+
  private:
   bool isSoonAfter(double before, double stamp) const {
     return stamp > before && stamp - before <= leap_;

@@ -13,6 +13,11 @@ struct SweepPose {
   double time = 0.0;  ///< [s]
   Pose T_map_sensor = Pose::Identity();
   std::optional<Pose> T_odom_sensor;
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.time, self.T_map_sensor, self.T_odom_sensor);
+  }
 };
 
 /// Where the sensor will be, by an odometry or at constant velocity, and how it moves in a sweep.
@@ -38,6 +43,16 @@ class MotionModel {
   void add(const SweepPose& now, double stamp);
   /// The next sweep is the first; the pose stays.
   void forget();
+  /// The next sweep is the first, at this pose.
+  void set(const Pose& T_map_sensor) {
+    forget();
+    T_map_sensor_ = T_map_sensor;
+  }
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.T_map_sensor_, self.last_, self.twist_, self.twist_in_sweep_);
+  }
 
  private:
   Twist twistTo(const SweepPose& now, const Pose& T_map_sensor) const;

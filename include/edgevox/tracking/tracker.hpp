@@ -42,14 +42,24 @@ class Tracker {
   /// All of the result but its times and `clock_jumped`.
   ScanResult track(const VoxelScan& scan, const ScanPrior& prior, const TrackedMap& tracked);
 
+  /// The result of a scan that is refused for its stamp.
+  ScanResult stale(const VoxelScan& scan, bool ahead) const;
+
   /// The centroids of the scan that was located last, deskewed, in the map frame [m].
   std::vector<Eigen::Vector3d> placed(const VoxelScan& scan) const;
   /// The sensor in the middle of its sweep [m].
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
+  /// The sensor is here; how it moves is not known.
+  void setPose(const Pose& T_map_sensor) { motion_.set(T_map_sensor); }
   /// Makes the tracker as new.
   void reset();
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.clock_watch_, self.motion_, self.acceptance_, self.lost_in_a_row_);
+  }
 
  private:
   /// The next scan is predicted where the last one was.

@@ -2,6 +2,7 @@
 #include "edgevox/grid/block_grid.hpp"
 
 #include <random>
+#include <utility>
 
 namespace edgevox {
 
@@ -11,6 +12,17 @@ uint64_t hashSecret() {
     return uint64_t{device()} << 32 | device();
   }();
   return secret;
+}
+
+void BlockTable::insertAgain() {
+  const std::vector<VoxelIndex> blocks = std::move(blocks_);
+  *this = BlockTable(seed_);
+  for (const VoxelIndex& block : blocks) {
+    const size_t known = size();
+    if (!inGridRange(block)) throw ArchiveError("a block is out of the grid's range");
+    findOrInsert(block);
+    if (size() == known) throw ArchiveError("a block is there twice");
+  }
 }
 
 }  // namespace edgevox

@@ -6,44 +6,13 @@
 #include <iterator>
 
 #include "core/grid/dilate.hpp"
+#include "core/sort_unique.hpp"
 
 namespace edgevox {
 namespace {
 
-constexpr size_t kBitBlockBytes = 64 + 12 + 4;  // bits, index and bucket of a block
-constexpr size_t kSurfaceBytes = 48;
 constexpr size_t kMegabyte = 1000000;
 constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
-
-template <typename T>
-void sortUnique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-/// Blocks of 8 voxels a side that hold a bit; a block of 16 counts as those of its eighths.
-size_t blocksOfEight(const BitGrid<16>& grid) {
-  size_t count = 0;
-  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
-    std::array<std::array<uint32_t, 2>, 4> any{};
-    for (size_t row = 0; row < grid.block(slot).size(); ++row) {
-      const uint32_t bits = grid.block(slot)[row];
-      auto& halves = any[(row >> 7) * 2 + ((row >> 3) & 1)];
-      halves[0] |= bits & 0xffU;
-      halves[1] |= bits >> 8;
-    }
-    for (const auto& halves : any) count += (halves[0] != 0) + (halves[1] != 0);
-  }
-  return count;
-}
-
-size_t blocksWithBits(const BitGrid<8>& grid) {
-  size_t count = 0;
-  for (size_t slot = 0; slot < grid.blockCount(); ++slot) {
-    count += BlockLayout<8>::isEmpty(grid.block(slot)) ? 0 : 1;
-  }
-  return count;
-}
 
 }  // namespace
 
@@ -214,6 +183,7 @@ void MapBuilder::label() {
   }
   thinEdges(edge_candidates_, targets, edge_neighbours_, edges);
   changeEdges(targets, before);
+  if (config_.representation == Representation::kEdges) return selectEdges();
   chooseAnchorsAnew();
   if (config_.representation == Representation::kRandom) selectRandom();
 }
@@ -291,25 +261,40 @@ Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const
   return voxelCentre(v, voxel_size_) + sum / static_cast<double>(hit.count);
 }
 
-size_t MapBuilder::packedBytes() const {
-  const bool all = config_.representation == Representation::kAll;
-  size_t bytes = blocksOfEight(all ? hit_voxels_ : edgeVoxels()) * kBitBlockBytes;
-  for (int l = 1; l < levels(); ++l) {
-    bytes += blocksWithBits(match_map_.occupied(l)) * kBitBlockBytes;
-  }
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    bytes += match_map_.surfaces(l).blocksWithSelection() * kBitBlockBytes +
-             moments(l).selectedSurfaces() * kSurfaceBytes;
-  }
-  return bytes;
-}
-
 size_t MapBuilder::bytes() const {
   size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
                  edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
                  lone_voxels_.bytes() + neighbours_.bytes();
   for (const MomentLevel& level : moments_) bytes += level.bytes();
   return bytes;
+}
+
+void MapBuilder::checkRead() const {
+  const auto fail = [] { throw ArchiveError("the hits do not fit to their voxels"); };
+  const auto isOut = [this](uint32_t slot) { return slot >= hits_.size(); };
+  for (size_t block = 0; block < hit_grid_.blockCount(); ++block) {
+    hit_grid_.forEachInBlock(block, [&](uint32_t slot) {
+      if (isOut(slot)) fail();
+    });
+  }
+  if (std::any_of(free_hits_.begin(), free_hits_.end(), isOut)) fail();
+  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
+    const SurfaceLevel& surfaces = match_map_.surfaces(l);
+    moments(l).checkRead(surfaces);
+    const auto& touched = touched_[static_cast<size_t>(l - 1)];
+    if (std::any_of(touched.begin(), touched.end(),
+                    [&](uint32_t slot) { return slot >= surfaces.slotCount(); })) {
+      fail();
+    }
+    const auto requireSurface = [&](const VoxelIndex& v) {
+      if (surfaces.slotOf(coarser(v, l)) == SurfaceLevel::kNone) fail();
+    };
+    hit_voxels_.forEach([&](const VoxelIndex& v) {
+      if (!isHit(v)) fail();
+      requireSurface(v);
+    });
+    edgeVoxels().forEach(requireSurface);
+  }
 }
 
 std::string fullText(const MapConfig& config) {

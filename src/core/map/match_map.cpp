@@ -21,7 +21,9 @@ MatchMap::MatchMap(double voxel_size, double coarsest_voxel)
 }
 
 size_t MatchMap::bytes() const {
-  size_t bytes = edge_voxels_.bytes();
+  size_t bytes = edge_voxels_.bytes() + hit_voxels_.bytes() +
+                 edges_.capacity() * sizeof(EdgeVoxel) +
+                 beside_edges_.capacity() * sizeof(VoxelPoint);
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
   for (const SurfaceLevel& level : surfaces_) bytes += level.bytes();
   return bytes;

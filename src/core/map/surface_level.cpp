@@ -89,6 +89,12 @@ void SurfaceLevel::erase(const VoxelIndex& v) {
   grid_.erase(v);
 }
 
+bool SurfaceLevel::isSelected(const VoxelIndex& v) const {
+  const int32_t block = grid_.findBlock(Grid::Layout::block(v));
+  return block != BlockTable::kNone &&
+         selected_[static_cast<size_t>(block)].test(Grid::Layout::cell(v));
+}
+
 void SurfaceLevel::setSelected(const VoxelIndex& v, bool selected) {
   Grid::Bits& bits = selected_[blockOf(v)];
   const int cell = Grid::Layout::cell(v);
@@ -97,9 +103,23 @@ void SurfaceLevel::setSelected(const VoxelIndex& v, bool selected) {
   selected ? ++selected_count_ : --selected_count_;
 }
 
-size_t SurfaceLevel::blocksWithSelection() const {
-  return static_cast<size_t>(std::count_if(selected_.begin(), selected_.end(),
-                                           [](const Grid::Bits& bits) { return bits.any(); }));
+void SurfaceLevel::checkRead() {
+  const auto fail = [] { throw ArchiveError("the surfaces do not fit to their voxels"); };
+  if (selected_.size() != grid_.blockCount()) fail();
+  selected_count_ = 0;
+  for (size_t block = 0; block < selected_.size(); ++block) {
+    if (!selected_[block].isSubsetOf(grid_.block(block).occupied)) fail();
+    selected_count_ += selected_[block].count();
+    grid_.forEachInBlock(block, [&](uint32_t slot) {
+      if (slot >= slotCount()) fail();
+      const uint32_t back = surfaces_[slot].back_surface;
+      if (back == kNone) return;
+      if (back >= slotCount() || back == slot || hasBack(back)) fail();
+    });
+  }
+  if (std::any_of(free_.begin(), free_.end(), [this](uint32_t s) { return s >= slotCount(); })) {
+    fail();
+  }
 }
 
 size_t SurfaceLevel::bytes() const {

@@ -16,7 +16,7 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   StageTimer timer(clock_);
   const ClockWatch::Order order = tracker_.checkStamp(scan.stamp);
   if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
-    return stale(scan, order == ClockWatch::Order::kAhead);
+    return tracker_.stale(scan, order == ClockWatch::Order::kAhead);
   }
   const bool clock_jumped = order == ClockWatch::Order::kJumpedBack;
   if (clock_jumped) clockJumped();
@@ -25,16 +25,6 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
   result.clock_jumped = clock_jumped;
   result.times.match = static_cast<float>(timer.lap());
   if (result.located()) insert(scan, result);
-  return result;
-}
-
-ScanResult Mapper::stale(const VoxelScan& scan, bool ahead) const {
-  ScanResult result;
-  result.status = ScanStatus::kStale;
-  result.number = scan.number;
-  result.stamp = scan.stamp;
-  result.T_map_sensor = tracker_.T_map_sensor();
-  result.ahead = ahead;
   return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/mapping/pipeline.hpp"
 
+#include <utility>
+
 namespace edgevox {
 namespace {
 
@@ -12,11 +14,16 @@ const Config& checked(const Config& config) {
 }  // namespace
 
 Pipeline::Pipeline(const Config& config, Clock clock)
-    : clock_(clock),
+    : config_(config),
+      clock_(clock),
       voxelizer_(checked(config).voxelizer, config.voxel_size),
       extractor_(config.edges, config.threads),
       density_monitor_(config.edges, config.threads, DensityMonitor::kEveryScan),
       mapper_(config, clock) {}
+
+void Pipeline::localizeIn(MatchMap map, const Pose& T_map_start) {
+  localizer_.emplace(config_, std::move(map), T_map_start, clock_);
+}
 
 PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior) {
   StageTimer timer(clock_);
@@ -26,7 +33,7 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   result.edges = extractor_.extract(scan);
   density_monitor_.add(scan, result.edges);
   const double extract = timer.lap();
-  result.scan = mapper_.process(scan, prior);
+  result.scan = localizer_ ? localizer_->process(scan, prior) : mapper_.process(scan, prior);
   result.scan.times.voxelize = static_cast<float>(voxelize);
   result.scan.times.extract = static_cast<float>(extract);
   result.points = scan.points_read;

@@ -75,6 +75,16 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
   return result;
 }
 
+ScanResult Tracker::stale(const VoxelScan& scan, bool ahead) const {
+  ScanResult result;
+  result.status = ScanStatus::kStale;
+  result.number = scan.number;
+  result.stamp = scan.stamp;
+  result.T_map_sensor = T_map_sensor();
+  result.ahead = ahead;
+  return result;
+}
+
 bool Tracker::isTooLarge(const VoxelScan& scan) const {
   return !scan.too_large.empty() ||
          scan.voxels.size() > static_cast<size_t>(config_.voxelizer.max_voxels);

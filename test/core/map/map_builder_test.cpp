@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/map/map_code.hpp"
 #include "edgevox/map/map_builder.hpp"
 #include "support/reference_extractor.hpp"
 #include "support/scans.hpp"
@@ -294,13 +295,12 @@ TEST(Representations, SparsePacksSmallerThanAll) {
   const auto scans = randomScans(14, 5);
   const MapBuilder sparse = mapOf(scans, withRepresentation(Representation::kSparse));
   const MapBuilder all = mapOf(scans, withRepresentation(Representation::kAll));
-  const double ratio =
-      static_cast<double>(all.packedBytes()) / static_cast<double>(sparse.packedBytes());
-  RecordProperty("all_to_sparse", std::to_string(ratio));
-  RecordProperty("packed_of_held", std::to_string(static_cast<double>(sparse.packedBytes()) /
-                                                  static_cast<double>(sparse.bytes())));
-  EXPECT_GT(ratio, 1.2);
-  EXPECT_LT(sparse.packedBytes(), sparse.bytes() / 4);
+  const size_t sparse_bytes = encoded(sparse.completeMap(), Representation::kSparse).size();
+  const size_t all_bytes = encoded(all.completeMap(), Representation::kAll).size();
+  RecordProperty("sparse_bytes", static_cast<int>(sparse_bytes));
+  RecordProperty("all_bytes", static_cast<int>(all_bytes));
+  EXPECT_GT(static_cast<double>(all_bytes), 1.2 * static_cast<double>(sparse_bytes));
+  EXPECT_LT(sparse_bytes, sparse.bytes() / 10);
 }
 
 TEST(Clear, ReturnsToANewMap) {
@@ -311,14 +311,14 @@ TEST(Clear, ReturnsToANewMap) {
   map.clear();
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(0U, map.ignoredCentroids());
-  EXPECT_EQ(makeMap({}).packedBytes(), map.packedBytes());
   EXPECT_EQ(makeMap({}).bytes(), map.bytes());
   EXPECT_EQ(makeMap({}).levels(), map.levels());
 
   for (const Centroids& scan : second) map.insert(scan, farSensor());
   map.label();
   expectMapOf(second, map, {});
-  EXPECT_EQ(mapOf(second, {}).packedBytes(), map.packedBytes());
+  EXPECT_EQ(encoded(mapOf(second, {}).completeMap(), Representation::kSparse),
+            encoded(map.completeMap(), Representation::kSparse));
 }
 
 TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
