@@ -3,6 +3,7 @@
 // maps of very different sizes.
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -134,6 +135,26 @@ void registerOnStreet(const std::string& suffix, size_t voxels) {
   })->Iterations(kWalkScans / 2);
   add("insert", suffix, [=](State& state, const std::string&) {
     timeOnStreet(state, voxels, updateLabels, addScan);
+  })->Iterations(kWalkScans / 2);
+  add("insert_after_snapshot", suffix, [=](State& state, const std::string&) {
+    std::unique_ptr<MapBuilder> snapshot;
+    const auto take = [&](MapBuilder& map, const PlacedScan& scan) {
+      updateLabels(map, scan);
+      snapshot = std::make_unique<MapBuilder>(map);
+    };
+    timeOnStreet(state, voxels, take, addScan);
+  })->Iterations(kWalkScans / 2);
+  add("snapshot", suffix, [=](State& state, const std::string&) {
+    std::unique_ptr<MapBuilder> snapshot;
+    const auto take = [&](MapBuilder& map, const PlacedScan&) {
+      snapshot = std::make_unique<MapBuilder>(map);
+    };
+    const auto insert = [&](MapBuilder& map, const PlacedScan& scan) {
+      snapshot.reset();
+      addScan(map, scan);
+      updateLabels(map, scan);
+    };
+    timeOnStreet(state, voxels, insert, take);
   })->Iterations(kWalkScans / 2);
 }
 

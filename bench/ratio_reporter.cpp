@@ -47,6 +47,12 @@ constexpr Limit kLimits[] = {
     {"insert", "map_100k", 0},
     {"insert", "map_1M", 0},
     {"insert", "map_10M", 0},
+    {"insert_after_snapshot", "map_100k", 0},
+    {"insert_after_snapshot", "map_1M", 0},
+    {"insert_after_snapshot", "map_10M", 0},
+    {"snapshot", "map_100k", 5},
+    {"snapshot", "map_1M", 5},
+    {"snapshot", "map_10M", 0},
     {"pipeline", "noisy_room", 1.5, "room"},
 };
 

@@ -83,7 +83,7 @@ void labelBlocks(const Grid& grid, const EdgeConfig& config, const LabelBlock& l
     const VoxelIndex& block = grid.blockIndex(slot);
     std::copy(grid.block(slot).begin(), grid.block(slot).end(), targets.begin());
     labelBlock(grid, block, targets.data(), found.data(), denseThresholds(config));
-    std::copy(found.begin(), found.end(), edges.block(edges.insertBlock(block)).begin());
+    std::copy(found.begin(), found.end(), edges.editBlock(edges.insertBlock(block)).begin());
   }
 }
 

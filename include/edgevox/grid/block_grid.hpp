@@ -6,12 +6,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <numeric>
 #include <type_traits>
 #include <vector>
 
 #include "edgevox/archive.hpp"
+#include "edgevox/grid/pool.hpp"
 #include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
@@ -148,7 +148,8 @@ struct BlockLayout {
   }
 };
 
-/// A set of voxels. Cleared blocks keep their memory for the next use.
+/// A set of voxels. Cleared blocks keep their memory for the next use. Copies share theirs: see
+/// Pool.
 template <int kSide>
 class BitGrid {
  public:
@@ -163,22 +164,19 @@ class BitGrid {
 
   /// Adds a voxel; true if it was not in the set.
   bool set(const VoxelIndex& v) {
-    Row& row = blocks_[insertBlock(Layout::block(v))][Layout::row(v)];
-    const Row bit = bitOf(v);
-    const bool added = (row & bit) == 0;
-    row = static_cast<Row>(row | bit);
-    return added;
+    const size_t slot = insertBlock(Layout::block(v));
+    if (Layout::test(blocks_[slot], v)) return false;
+    flip(slot, v);
+    return true;
   }
 
   /// Takes a voxel out; true if it was in the set.
   bool reset(const VoxelIndex& v) {
     const int32_t slot = table_.find(Layout::block(v));
     if (slot == BlockTable::kNone) return false;
-    Row& row = blocks_[static_cast<size_t>(slot)][Layout::row(v)];
-    const Row bit = bitOf(v);
-    const bool removed = (row & bit) != 0;
-    row = static_cast<Row>(row & ~bit);
-    return removed;
+    if (!Layout::test(blocks_[static_cast<size_t>(slot)], v)) return false;
+    flip(static_cast<size_t>(slot), v);
+    return true;
   }
 
   /// The slot of a block, made empty if it is new.
@@ -187,8 +185,8 @@ class BitGrid {
     last_index_ = block;
     last_slot_ = static_cast<size_t>(table_.findOrInsert(block));
     if (last_slot_ == used_) {
-      if (used_ == blocks_.size()) blocks_.emplace_back();
-      blocks_[used_++].fill(0);
+      if (used_ == blocks_.size()) blocks_.grow();
+      blocks_.edit(used_++).fill(0);
     }
     return last_slot_;
   }
@@ -202,7 +200,8 @@ class BitGrid {
   size_t blockCount() const { return used_; }
   const VoxelIndex& blockIndex(size_t slot) const { return table_.block(slot); }
   const Block& block(size_t slot) const { return blocks_[slot]; }
-  Block& block(size_t slot) { return blocks_[slot]; }
+  /// To be written to; stays where it is until the grid is copied.
+  Block& editBlock(size_t slot) { return blocks_.edit(slot); }
 
   size_t voxelCount() const {
     size_t count = 0;
@@ -236,27 +235,43 @@ class BitGrid {
     used_ = 0;
   }
 
-  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block); }
+  /// Calls visit(slot) for the blocks that differ from those of `earlier`, a copy of this grid made
+  /// since it was last cleared. What is shared takes no time.
+  template <typename Visit>
+  void forEachChangedBlock(const BitGrid& earlier, Visit&& visit) const {
+    blocks_.forEachNotShared(earlier.blocks_, [&](size_t slot) {
+      if (slot >= used_) return;
+      const bool known = slot < earlier.used_;
+      if (known ? blocks_[slot] != earlier.blocks_[slot] : !Layout::isEmpty(blocks_[slot])) {
+        visit(slot);
+      }
+    });
+  }
+
+  size_t bytes() const { return table_.bytes() + blocks_.bytes(); }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.table_);
     if constexpr (Archive::kReads) self.makeBlocks();
-    for (size_t slot = 0; slot < self.used_; ++slot) bytes(self.blocks_[slot]);
+    for (size_t slot = 0; slot < self.used_; ++slot) Pool<Block>::archiveElement(self.blocks_, slot, bytes);
   }
 
  private:
-  static Row bitOf(const VoxelIndex& v) { return static_cast<Row>(1U << Layout::column(v)); }
+  void flip(size_t slot, const VoxelIndex& v) {
+    Row& row = blocks_.edit(slot)[static_cast<size_t>(Layout::row(v))];
+    row = static_cast<Row>(row ^ (1U << Layout::column(v)));
+  }
 
   void makeBlocks() {
     used_ = table_.size();
-    while (blocks_.size() < used_) blocks_.emplace_back();
+    while (blocks_.size() < used_) blocks_.grow();
     last_slot_ = 0;
     if (used_ > 0) last_index_ = table_.block(0);
   }
 
   BlockTable table_;
-  std::deque<Block> blocks_;  // the first used_ belong to the table's slots
+  Pool<Block> blocks_;  // the first used_ belong to the table's slots
   size_t used_ = 0;
   VoxelIndex last_index_;  // of the last insertBlock()
   size_t last_slot_ = 0;
@@ -353,13 +368,13 @@ class SlotGrid {
 
   /// The voxel's slot; a new voxel gets `next`.
   uint32_t insert(const VoxelIndex& v, uint32_t next) {
-    Block& block = blockOf(Layout::block(v));
+    const size_t found = insertBlock(Layout::block(v));
     const int cell = Layout::cell(v);
-    const auto at = block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell));
-    if (block.occupied.test(cell)) return *at;
-    const size_t capacity = block.slots.capacity();
-    block.slots.insert(at, next);
-    slot_bytes_ += (block.slots.capacity() - capacity) * sizeof(uint32_t);
+    if (const Block& known = blocks_[found]; known.occupied.test(cell)) return known.slotOf(cell);
+    Block& block = blocks_.edit(found);
+    slot_bytes_ -= bytesOf(block.slots);
+    block.slots.insert(block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell)), next);
+    slot_bytes_ += bytesOf(block.slots);
     block.occupied.set(cell);
     for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) ++block.before[w];
     return next;
@@ -368,10 +383,12 @@ class SlotGrid {
   void erase(const VoxelIndex& v) {
     const int32_t found = findBlock(Layout::block(v));
     if (found == BlockTable::kNone) return;
-    Block& block = blocks_[static_cast<size_t>(found)];
     const int cell = Layout::cell(v);
-    if (!block.occupied.test(cell)) return;
+    if (!blocks_[static_cast<size_t>(found)].occupied.test(cell)) return;
+    Block& block = blocks_.edit(static_cast<size_t>(found));
+    slot_bytes_ -= bytesOf(block.slots);
     block.slots.erase(block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell)));
+    slot_bytes_ += bytesOf(block.slots);
     block.occupied.reset(cell);
     for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) --block.before[w];
   }
@@ -401,39 +418,49 @@ class SlotGrid {
 
   void clear() { *this = {}; }
 
-  size_t bytes() const { return table_.bytes() + blocks_.size() * sizeof(Block) + slot_bytes_; }
+  size_t bytes() const { return table_.bytes() + blocks_.bytes() + slot_bytes_; }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.table_);
     if constexpr (Archive::kReads) self.makeBlocks();
-    for (size_t block = 0; block < self.blockCount(); ++block) bytes(self.blocks_[block]);
+    for (size_t block = 0; block < self.blockCount(); ++block) {
+      Pool<Block>::archiveElement(self.blocks_, block, bytes);
+    }
     if constexpr (Archive::kReads) self.countSlotBytes();
   }
 
  private:
   void makeBlocks() {
-    blocks_.clear();
-    while (blocks_.size() < table_.size()) blocks_.emplace_back();
+    blocks_ = {};
+    while (blocks_.size() < table_.size()) blocks_.grow();
     last_ = kNoBlock;
   }
   void countSlotBytes() {
     slot_bytes_ = 0;
-    for (const Block& block : blocks_) slot_bytes_ += block.slots.capacity() * sizeof(uint32_t);
+    for (const Block& block : blocks_) slot_bytes_ += bytesOf(block.slots);
   }
 
   static constexpr size_t kNoBlock = static_cast<size_t>(-1);
 
-  Block& blockOf(const VoxelIndex& block) {
-    if (last_ != kNoBlock && block == last_index_) return blocks_[last_];
+  /// Of a vector that doubles, by its size: one that was cloned has less room, but whether a map is
+  /// full must not depend on its copies.
+  static size_t bytesOf(const std::vector<uint32_t>& slots) {
+    if (slots.empty()) return 0;
+    const size_t room = powerOfTwoWithin(slots.size());
+    return (room < slots.size() ? 2 * room : room) * sizeof(uint32_t);
+  }
+
+  size_t insertBlock(const VoxelIndex& block) {
+    if (last_ != kNoBlock && block == last_index_) return last_;
     last_ = static_cast<size_t>(table_.findOrInsert(block));
     last_index_ = block;
-    if (last_ == blocks_.size()) blocks_.emplace_back();
-    return blocks_[last_];
+    if (last_ == blocks_.size()) blocks_.grow();
+    return last_;
   }
 
   BlockTable table_;
-  std::deque<Block> blocks_;
+  Pool<Block> blocks_;
   size_t slot_bytes_ = 0;
   size_t last_ = kNoBlock;
   VoxelIndex last_index_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -8,28 +9,74 @@
 
 namespace edgevox {
 
-/// A growing array whose elements never move.
+/// The largest power of two that is not above `n`, at least 1.
+constexpr size_t powerOfTwoWithin(size_t n) {
+  size_t power = 1;
+  while (2 * power <= n) power *= 2;
+  return power;
+}
+
+/// A growing array in chunks that copies share: a copy costs a pointer a chunk, and the first write
+/// to a chunk that another copy may hold clones it. An element does not move but by that.
+/// A copy and its origin may be used by two threads at once. Copying writes to its source, which
+/// nobody else may use meanwhile.
 template <typename T>
 class Pool {
  public:
   Pool() = default;
   Pool(Pool&&) = default;
   Pool& operator=(Pool&&) = default;
-  Pool(const Pool& other) : size_(other.size_) {
-    for (const auto& chunk : other.chunks_) chunks_.push_back(std::make_unique<Chunk>(*chunk));
+  Pool(const Pool& other)
+      : chunks_(other.chunks_), own_(other.own_.size(), nullptr), size_(other.size_) {
+    std::fill(other.own_.begin(), other.own_.end(), nullptr);
   }
-  Pool& operator=(const Pool&) = delete;
+  Pool& operator=(const Pool& other) { return *this = Pool(other); }
+  ~Pool() = default;
 
-  T& operator[](size_t i) { return (*chunks_[i / kChunk])[i % kChunk]; }
   const T& operator[](size_t i) const { return (*chunks_[i / kChunk])[i % kChunk]; }
+
+  /// The element, to be written to.
+  T& edit(size_t i) {
+    Chunk* chunk = own_[i / kChunk];
+    if (chunk == nullptr) chunk = &clone(i / kChunk);
+    return (*chunk)[i % kChunk];
+  }
 
   /// Appends a default-constructed element.
   T& grow() {
-    if (size_ == chunks_.size() * kChunk) chunks_.push_back(std::make_unique<Chunk>());
-    return (*this)[size_++];
+    if (size_ == chunks_.size() * kChunk) {
+      chunks_.push_back(std::make_shared<Chunk>());
+      own_.push_back(chunks_.back().get());
+    }
+    return edit(size_++);
+  }
+
+  /// For a loop over all elements.
+  class Iterator {
+   public:
+    Iterator(const Pool& pool, size_t i) : pool_(pool), i_(i) {}
+    const T& operator*() const { return pool_[i_]; }
+    Iterator& operator++() { return ++i_, *this; }
+    bool operator!=(const Iterator& other) const { return i_ != other.i_; }
+
+   private:
+    const Pool& pool_;
+    size_t i_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
+
+  /// Calls visit(i) for all elements but those in chunks that are also other's.
+  template <typename Visit>
+  void forEachNotShared(const Pool& other, Visit&& visit) const {
+    for (size_t c = 0; c < chunks_.size(); ++c) {
+      if (c < other.chunks_.size() && chunks_[c] == other.chunks_[c]) continue;
+      for (size_t i = c * kChunk; i < std::min((c + 1) * kChunk, size_); ++i) visit(i);
+    }
   }
 
   size_t size() const { return size_; }
+  /// As if no chunk were shared.
   size_t bytes() const { return chunks_.size() * sizeof(Chunk); }
 
   template <typename Self, typename Archive>
@@ -44,12 +91,29 @@ class Pool {
       for (size_t i = 0; i < size; ++i) bytes(self[i]);
     }
   }
+  template <typename Self, typename Archive>
+  static void archiveElement(Self& self, size_t i, Archive& bytes) {
+    if constexpr (Archive::kReads) {
+      bytes(self.edit(i));
+    } else {
+      bytes(self[i]);
+    }
+  }
 
  private:
-  static constexpr size_t kChunk = 1024;
+  // Small enough that a scan into a map that has just been copied clones little, large enough that
+  // a copy takes little time.
+  static constexpr size_t kChunkBytes = 4096;
+  static constexpr size_t kChunk = powerOfTwoWithin(kChunkBytes / sizeof(T));
   using Chunk = std::array<T, kChunk>;
 
-  std::vector<std::unique_ptr<Chunk>> chunks_;
+  Chunk& clone(size_t c) {
+    chunks_[c] = std::make_shared<Chunk>(*chunks_[c]);
+    return *(own_[c] = chunks_[c].get());
+  }
+
+  std::vector<std::shared_ptr<Chunk>> chunks_;
+  mutable std::vector<Chunk*> own_;  // the same, but null where another copy may hold the chunk
   size_t size_ = 0;
 };
 

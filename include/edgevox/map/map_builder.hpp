@@ -22,6 +22,9 @@ namespace edgevox {
 
 /// Keeps a MatchMap up to date with scans: counts the hits of voxels, sums up their centroids,
 /// labels edges on the accumulated occupancy, and selects the voxels that scans are matched to.
+/// A copy is a snapshot: it shares what neither has changed since (see Pool) and takes a
+/// millisecond or two for a million voxels. It may be used and destroyed in another thread while
+/// its origin goes on; only while it is made must the origin stand still.
 class MapBuilder {
  public:
   /// `voxel_size` [m] is that of level 0; map.coarsest_voxel fixes the number of levels.
@@ -98,12 +101,25 @@ class MapBuilder {
     }
   };
   struct Ray;
+  /// What lasts while a scan is added: a copy of the map has none of it.
+  struct ScanBeingAdded {
+    ScanBeingAdded() = default;
+    ScanBeingAdded(const ScanBeingAdded&) {}
+    ScanBeingAdded(ScanBeingAdded&&) = default;
+    ScanBeingAdded& operator=(ScanBeingAdded&&) = default;
+
+    std::vector<Eigen::Vector3d> centroids;
+    std::vector<VoxelIndex> voxels;          // at level 0
+    std::vector<Eigen::Vector3f> to_sensor;  // unit vectors
+    std::vector<uint32_t> slots;             // at one level
+    std::vector<VoxelIndex> cleared;         // by the scan
+    ScanNeighbours neighbours;
+  };
 
   void checkRead() const;
-
-  /// Makes centroids_ and voxels_ of those in range.
+  /// Makes the centroids and voxels of scan_, of those in range.
   void setPoints(const std::vector<Eigen::Vector3d>& centroids);
-  /// Leaves in centroids_ and voxels_ the points whose voxel passes the test, in their order.
+  /// Leaves in scan_ the points whose voxel passes the test, in their order.
   template <typename Test>
   void keepPoints(const Test& test);
   void leaveOutLone();
@@ -148,7 +164,6 @@ class MapBuilder {
   size_t left_out_full_ = 0;
   bool full_ = false;
   RecentVoxels lone_voxels_;
-  ScanNeighbours neighbours_;  // of the scan being added
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
   std::vector<uint32_t> free_hits_;  // slots of removed voxels
@@ -160,11 +175,7 @@ class MapBuilder {
   // slots by level - 1, repeated
   std::array<std::vector<uint32_t>, MatchMap::kSurfaceLevels> touched_;
   std::array<double, MatchMap::kSurfaceLevels> random_share_{};  // of the voxels of a level
-  std::vector<Eigen::Vector3d> centroids_;                       // of the scan being added
-  std::vector<VoxelIndex> voxels_;                               // of the same, at level 0
-  std::vector<Eigen::Vector3f> to_sensor_;                       // of the same, unit vectors
-  std::vector<uint32_t> slots_;                                  // of the same, at one level
-  std::vector<VoxelIndex> cleared_;                              // by the scan being added
+  ScanBeingAdded scan_;
 };
 
 /// Says that a map is as large as it may be, and what to do.
@@ -173,13 +184,13 @@ std::string fullText(const MapConfig& config);
 template <typename Test>
 void MapBuilder::keepPoints(const Test& test) {
   size_t kept = 0;
-  for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (!test(voxels_[i])) continue;
-    voxels_[kept] = voxels_[i];
-    centroids_[kept++] = centroids_[i];
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
+    if (!test(scan_.voxels[i])) continue;
+    scan_.voxels[kept] = scan_.voxels[i];
+    scan_.centroids[kept++] = scan_.centroids[i];
   }
-  voxels_.resize(kept);
-  centroids_.resize(kept);
+  scan_.voxels.resize(kept);
+  scan_.centroids.resize(kept);
 }
 
 /// Centroids of the voxels of level 0, in the order of the voxels [m].

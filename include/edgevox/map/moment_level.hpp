@@ -16,7 +16,8 @@
 namespace edgevox {
 
 /// The sums over centroids from which the surfaces of a level are computed, in the same slots.
-/// Which of them are `selected` depends on the representation of the map.
+/// Which of them are `selected` depends on the representation of the map. Copies share their
+/// memory: see Pool.
 class MomentLevel {
  public:
   struct Cell {
@@ -63,7 +64,8 @@ class MomentLevel {
   /// Sets Cell::flat_axis: the axis nearest to the normal if the voxel is flat.
   void findFlatAxis(uint32_t slot);
 
-  Cell& cell(uint32_t slot) { return cells_[slot]; }
+  /// To be written to; stays where it is until the level is copied.
+  Cell& editCell(uint32_t slot) { return cells_.edit(slot); }
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
   size_t size() const { return cells_.size(); }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +34,7 @@ struct Surface {
 };
 
 /// The surfaces in voxels of one size, found by voxel. Scans are matched to the `selected` ones or,
-/// as far as they are known, to all.
+/// as far as they are known, to all. Copies share their memory: see Pool.
 class SurfaceLevel {
  public:
   static constexpr uint32_t kNone = Surface::kNone;
@@ -91,7 +90,8 @@ class SurfaceLevel {
   uint32_t insertBack(uint32_t slot);
   /// Takes out a voxel's surface with its back; the slots are used again.
   void erase(const VoxelIndex& v);
-  Surface& surface(uint32_t slot) { return surfaces_[slot]; }
+  /// To be written to; stays where it is until the level is copied.
+  Surface& editSurface(uint32_t slot) { return surfaces_.edit(slot); }
   /// Selects, or not, a voxel that has a slot.
   void setSelected(const VoxelIndex& v, bool selected);
 
@@ -110,7 +110,7 @@ class SurfaceLevel {
 
   double voxel_size_;
   Grid grid_;
-  std::deque<Grid::Bits> selected_;  // one a block of grid_
+  Pool<Grid::Bits> selected_;  // one a block of grid_
   size_t selected_count_ = 0;
   Pool<Surface> surfaces_;
   std::vector<uint32_t> free_;  // erased slots

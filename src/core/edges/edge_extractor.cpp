@@ -174,9 +174,9 @@ int EdgeLabeller<kSide>::reach() const {
 template <int kSide>
 void EdgeLabeller<kSide>::label(const Grid& occupied, const Grid& targets, Grid& edges,
                                 size_t* sparse) const {
-  std::vector<size_t> edge_slots(targets.blockCount());
-  for (size_t slot = 0; slot < edge_slots.size(); ++slot) {
-    edge_slots[slot] = edges.insertBlock(targets.blockIndex(slot));
+  std::vector<typename Grid::Block*> edge_blocks(targets.blockCount());
+  for (size_t slot = 0; slot < edge_blocks.size(); ++slot) {
+    edge_blocks[slot] = &edges.editBlock(edges.insertBlock(targets.blockIndex(slot)));
   }
   std::vector<size_t> sparse_of_block(targets.blockCount());
   const BlockLabels<kSide> labels(config_, thresholds_, sparse != nullptr);
@@ -186,7 +186,7 @@ void EdgeLabeller<kSide>::label(const Grid& occupied, const Grid& targets, Grid&
   parallelFor(targets.blockCount(), threads_, [&](size_t slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
     const auto& target = targets.block(slot);
-    auto& edge_block = edges.block(edge_slots[slot]);
+    auto& edge_block = *edge_blocks[slot];
     if (isAlone(occupied, block, reach)) {
       sparse_of_block[slot] = lone.set(target, edge_block);
       return;
@@ -213,7 +213,7 @@ void thinEdges(const BitGrid<kSide>& candidates, const BitGrid<kSide>& targets, 
   for (size_t slot = 0; slot < targets.blockCount(); ++slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
     const Neighbourhood<kSide, 1> rows(candidates, block);
-    auto& edge_block = edges.block(edges.insertBlock(block));
+    auto& edge_block = edges.editBlock(edges.insertBlock(block));
     for (int row = 0; row < BlockLayout<kSide>::kRows; ++row) {
       const auto r = static_cast<size_t>(row);
       const uint32_t kept = surrounded<kSide>(rows.data(), row, targets.block(slot)[r], neighbours);

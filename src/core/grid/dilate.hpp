@@ -71,7 +71,7 @@ class Dilation {
         const auto bits =
             static_cast<typename Grid::Row>(static_cast<typename Grid::Row>(part) & (*allowed)[r]);
         if (bits == 0) continue;
-        if (target == nullptr) target = &out_.block(out_.insertBlock(block));
+        if (target == nullptr) target = &out_.editBlock(out_.insertBlock(block));
         (*target)[r] = static_cast<typename Grid::Row>((*target)[r] | bits);
       }
     }

@@ -38,15 +38,15 @@ void chooseAnchors(MomentLevel& level, const SurfaceLevel& surfaces, size_t bloc
   const int flat = candidates.flat[0] + candidates.flat[1] + candidates.flat[2];
   const int missing = std::max(0, rule.count - flat);
   surfaces.forEachInBlock(block, [&](uint32_t slot) {
-    MomentLevel::Cell& cell = level.cell(slot);
+    const MomentLevel::Cell& cell = level.cell(slot);
     const double lot = unitHash(level.voxel(slot));
-    if (cell.hits < rule.min_hits) {
-      cell.anchor = false;
-    } else if (isFlat(cell)) {
-      cell.anchor = lot * candidates.flat[static_cast<size_t>(cell.flat_axis)] < rule.count;
-    } else {
-      cell.anchor = cell.edge_children > 0 && lot * candidates.edges < missing;
+    bool anchor = false;
+    if (cell.hits >= rule.min_hits) {
+      anchor = isFlat(cell)
+                   ? lot * candidates.flat[static_cast<size_t>(cell.flat_axis)] < rule.count
+                   : cell.edge_children > 0 && lot * candidates.edges < missing;
     }
+    if (cell.anchor != anchor) level.editCell(slot).anchor = anchor;
   });
 }
 

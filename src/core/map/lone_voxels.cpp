@@ -67,15 +67,15 @@ void MapBuilder::leaveOutLone() {
   const auto is_known = [this](const VoxelIndex& v) {
     return match_map_.occupied(1).test(coarser(v, 1));
   };
-  if (std::all_of(voxels_.begin(), voxels_.end(), is_known)) return;
-  neighbours_.set(voxels_);
-  const size_t all = voxels_.size();
+  if (std::all_of(scan_.voxels.begin(), scan_.voxels.end(), is_known)) return;
+  scan_.neighbours.set(scan_.voxels);
+  const size_t all = scan_.voxels.size();
   keepPoints([&](const VoxelIndex& v) {
     const VoxelIndex parent = coarser(v, 1);
-    return is_known(v) || !neighbours_.isAlone(parent) || isBesideEstablished(parent) ||
+    return is_known(v) || !scan_.neighbours.isAlone(parent) || isBesideEstablished(parent) ||
            lone_voxels_.findOrInsert(v);
   });
-  left_out_lone_ += all - voxels_.size();
+  left_out_lone_ += all - scan_.voxels.size();
 }
 
 bool MapBuilder::isBesideEstablished(const VoxelIndex& parent) const {
@@ -89,9 +89,9 @@ bool MapBuilder::isBesideEstablished(const VoxelIndex& parent) const {
 
 /// A map as large as it may be keeps what it knows up to date.
 void MapBuilder::leaveOutNew() {
-  const size_t all = voxels_.size();
+  const size_t all = scan_.voxels.size();
   keepPoints([this](const VoxelIndex& v) { return isHit(v); });
-  left_out_full_ += all - voxels_.size();
+  left_out_full_ += all - scan_.voxels.size();
 }
 
 }  // namespace edgevox

@@ -43,21 +43,21 @@ void MapBuilder::add(const std::vector<Eigen::Vector3d>& centroids, const Eigen:
 }
 
 void MapBuilder::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
-  centroids_.clear();
-  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(centroids_),
+  scan_.centroids.clear();
+  std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(scan_.centroids),
                [this](const Eigen::Vector3d& c) { return inGridRange(c, voxel_size_); });
-  ignored_ += centroids.size() - centroids_.size();
+  ignored_ += centroids.size() - scan_.centroids.size();
   const double inverse_size = 1.0 / voxel_size_;
-  voxels_.resize(centroids_.size());
-  std::transform(centroids_.begin(), centroids_.end(), voxels_.begin(),
+  scan_.voxels.resize(scan_.centroids.size());
+  std::transform(scan_.centroids.begin(), scan_.centroids.end(), scan_.voxels.begin(),
                  [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
 }
 
 /// One pass a level and a step: short loops over memory that do not wait for one another.
 void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
-  to_sensor_.resize(centroids_.size());
-  slots_.resize(centroids_.size());
-  std::transform(centroids_.begin(), centroids_.end(), to_sensor_.begin(),
+  scan_.to_sensor.resize(scan_.centroids.size());
+  scan_.slots.resize(scan_.centroids.size());
+  std::transform(scan_.centroids.begin(), scan_.centroids.end(), scan_.to_sensor.begin(),
                  [&](const Eigen::Vector3d& c) -> Eigen::Vector3f {
                    return (sensor - c).cast<float>().normalized();
                  });
@@ -75,24 +75,25 @@ bool MapBuilder::labelDue() const {
 }
 
 void MapBuilder::addHits() {
-  for (size_t i = 0; i < voxels_.size(); ++i) {
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
     const uint32_t next =
         free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
-    slots_[i] = hit_grid_.insert(voxels_[i], next);
-    if (slots_[i] != next) continue;
+    scan_.slots[i] = hit_grid_.insert(scan_.voxels[i], next);
+    if (scan_.slots[i] != next) continue;
     free_hits_.empty() ? static_cast<void>(hits_.grow()) : free_hits_.pop_back();
   }
-  for (size_t i = 0; i < voxels_.size(); ++i) {
-    Hit& hit = hits_[slots_[i]];
-    const Eigen::Vector3f d = (centroids_[i] - voxelCentre(voxels_[i], voxel_size_)).cast<float>();
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
+    Hit& hit = hits_.edit(scan_.slots[i]);
+    const Eigen::Vector3f d =
+        (scan_.centroids[i] - voxelCentre(scan_.voxels[i], voxel_size_)).cast<float>();
     for (size_t k = 0; k < 3; ++k) hit.sum[k] += d[static_cast<Eigen::Index>(k)];
     ++hit.count;
     if (hit.last_scan == scans_) continue;
     hit.last_scan = scans_;
     hit.passes = 0;
     if (++hit.hits == static_cast<uint32_t>(config_.min_hits)) {
-      hit_voxels_.set(voxels_[i]);
-      changed_.set(voxels_[i]);
+      hit_voxels_.set(scan_.voxels[i]);
+      changed_.set(scan_.voxels[i]);
     }
   }
 }
@@ -100,15 +101,16 @@ void MapBuilder::addHits() {
 void MapBuilder::addMoments(int l) {
   MomentLevel& level = momentLevel(l);
   SurfaceLevel& surfaces = match_map_.surfaces(l);
-  for (size_t i = 0; i < voxels_.size(); ++i) {
-    const VoxelIndex v = coarser(voxels_[i], l);
-    slots_[i] = level.slotFor(v, surfaces);
-    if (l == 1 && level.cell(slots_[i]).hits == 0) markOccupied(v);
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
+    const VoxelIndex v = coarser(scan_.voxels[i], l);
+    scan_.slots[i] = level.slotFor(v, surfaces);
+    if (l == 1 && level.cell(scan_.slots[i]).hits == 0) markOccupied(v);
   }
-  for (size_t i = 0; i < voxels_.size(); ++i) {
-    if (!level.add(slots_[i], centroids_[i], to_sensor_[i], scans_, surfaces)) continue;
-    touch(l, slots_[i]);
-    if (level.cell(slots_[i]).hits == config_.min_hits) selectNew(l, slots_[i]);
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
+    if (!level.add(scan_.slots[i], scan_.centroids[i], scan_.to_sensor[i], scans_, surfaces))
+      continue;
+    touch(l, scan_.slots[i]);
+    if (level.cell(scan_.slots[i]).hits == config_.min_hits) selectNew(l, scan_.slots[i]);
   }
 }
 
@@ -116,7 +118,7 @@ void MapBuilder::selectNew(int l, uint32_t slot) {
   MomentLevel& level = momentLevel(l);
   if (config_.representation == Representation::kAll) select(l, slot, true);
   if (config_.representation == Representation::kSparse) {
-    level.cell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
+    level.editCell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
     select(l, slot, level.cell(slot).anchor);
   }
   if (config_.representation == Representation::kRandom) {
@@ -132,7 +134,7 @@ void MapBuilder::markOccupied(const VoxelIndex& v) {
 
 void MapBuilder::countEdge(int l, const VoxelIndex& v, int change) {
   const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  auto& children = momentLevel(l).cell(slot).edge_children;
+  auto& children = momentLevel(l).editCell(slot).edge_children;
   const bool held = children != 0;
   children = static_cast<uint8_t>(children + change);
   if (held == (children != 0)) return;
@@ -237,7 +239,7 @@ void MapBuilder::clear() {
   left_out_full_ = 0;
   full_ = false;
   lone_voxels_.clear();
-  neighbours_ = {};
+  scan_.neighbours = {};
   hit_grid_ = {};
   hits_ = {};
   free_hits_ = {};
@@ -264,7 +266,7 @@ Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const
 size_t MapBuilder::bytes() const {
   size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
                  edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
-                 lone_voxels_.bytes() + neighbours_.bytes();
+                 lone_voxels_.bytes() + scan_.neighbours.bytes();
   for (const MomentLevel& level : moments_) bytes += level.bytes();
   return bytes;
 }

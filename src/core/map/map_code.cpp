@@ -107,8 +107,8 @@ void addSurfaces(const SurfaceLevel& level, const std::vector<VoxelIndex>& occup
 /// Keeps what the slots of a level say of back surfaces.
 void setSurface(uint32_t slot, const Surface& surface, SurfaceLevel& level) {
   const uint32_t back = level.surface(slot).back_surface;
-  level.surface(slot) = surface;
-  level.surface(slot).back_surface = back;
+  level.editSurface(slot) = surface;
+  level.editSurface(slot).back_surface = back;
 }
 
 void makeSurfaces(const LevelCode& code, const std::vector<VoxelIndex>& occupied,
@@ -121,7 +121,7 @@ void makeSurfaces(const LevelCode& code, const std::vector<VoxelIndex>& occupied
     level.setSelected(selected[i], true);
   }
   for (size_t i = 0; i < two_sided.size(); ++i) {
-    level.surface(level.insertBack(level.slotOf(two_sided[i]))) =
+    level.editSurface(level.insertBack(level.slotOf(two_sided[i]))) =
         code.back.surface(i, two_sided[i], level.voxelSize());
   }
 }

@@ -17,7 +17,7 @@ void MomentLevel::makeCell(uint32_t slot, const VoxelIndex& v) {
     cells_.grow();
     voxels_.grow();
   }
-  voxels_[slot] = v;
+  voxels_.edit(slot) = v;
 }
 
 /// The cell of the surface in the voxel that `to_sensor` sees.
@@ -27,8 +27,8 @@ uint32_t MomentLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor,
   if (!surfaces.hasBack(slot)) {
     const uint32_t back = surfaces.insertBack(slot);
     makeCell(back, voxels_[slot]);
-    cells_[back].is_back = true;
-    cells_[back].selected = cells_[slot].selected;
+    cells_.edit(back).is_back = true;
+    cells_.edit(back).selected = cells_[slot].selected;
   }
   return surfaces.surface(slot).back_surface;
 }
@@ -36,7 +36,7 @@ uint32_t MomentLevel::sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor,
 bool MomentLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
                       const Eigen::Vector3f& to_sensor, uint32_t scan, SurfaceLevel& surfaces) {
   const uint32_t side = sideSlot(slot, to_sensor, surfaces);
-  Cell& seen = cells_[side];
+  Cell& seen = cells_.edit(side);
   const Eigen::Vector3f d = (centroid - voxelCentre(voxels_[slot], voxel_size_)).cast<float>();
   for (size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<Eigen::Index>(i);
@@ -48,8 +48,8 @@ bool MomentLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
   }
   ++seen.count;
   setStale(side);
-  Cell& cell = cells_[slot];
-  if (cell.last_scan == scan) return false;
+  if (cells_[slot].last_scan == scan) return false;
+  Cell& cell = cells_.edit(slot);
   cell.last_scan = scan;
   if (cell.hits < std::numeric_limits<uint16_t>::max()) ++cell.hits;
   return true;
@@ -57,12 +57,12 @@ bool MomentLevel::add(uint32_t slot, const Eigen::Vector3d& centroid,
 
 void MomentLevel::setStale(uint32_t slot) {
   if (cells_[slot].stale) return;
-  cells_[slot].stale = true;
+  cells_.edit(slot).stale = true;
   stale_.push_back(slot);
 }
 
 void MomentLevel::setMoments(uint32_t slot, const Moments& moments) {
-  Cell& cell = cells_[slot];
+  Cell& cell = cells_.edit(slot);
   const auto kept = static_cast<float>(moments.count / cell.count);
   for (size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<Eigen::Index>(i);
@@ -77,20 +77,20 @@ void MomentLevel::setMoments(uint32_t slot, const Moments& moments) {
 
 void MomentLevel::erase(const VoxelIndex& v, SurfaceLevel& surfaces) {
   const uint32_t slot = surfaces.slotOf(v);
-  if (surfaces.hasBack(slot)) cells_[surfaces.surface(slot).back_surface] = {};
-  cells_[slot] = {};
+  if (surfaces.hasBack(slot)) cells_.edit(surfaces.surface(slot).back_surface) = {};
+  cells_.edit(slot) = {};
   surfaces.erase(v);
 }
 
 void MomentLevel::update(uint32_t slot, Side side, SurfaceLevel& surfaces) {
-  Surface& now = surfaces.surface(slot);
+  Surface& now = surfaces.editSurface(slot);
   const Surface before = now;
   const Cell& cell = cells_[slot];
   now = surfaceOf(moments(slot), voxels_[slot], voxel_size_,
                   {cell.view[0], cell.view[1], cell.view[2]});
   now.back_surface = before.back_surface;
   if (side == Side::kKeep) now.side = before.side;
-  cells_[slot].stale = false;
+  cells_.edit(slot).stale = false;
 }
 
 void MomentLevel::updateSelected(SurfaceLevel& surfaces) {
@@ -126,14 +126,15 @@ void MomentLevel::select(uint32_t slot, bool selected, SurfaceLevel& surfaces) {
   if (cells_[slot].selected == selected) return;
   surfaces.setSelected(voxels_[slot], selected);
   for (uint32_t side = slot; side != Surface::kNone; side = surfaces.surface(side).back_surface) {
-    cells_[side].selected = selected;
+    cells_.edit(side).selected = selected;
     if (selected) update(side, Side::kRefresh, surfaces);
   }
 }
 
 void MomentLevel::findFlatAxis(uint32_t slot) {
   const SurfaceShape shape(moments(slot), voxel_size_);
-  cells_[slot].flat_axis = shape.isPatch() ? static_cast<int8_t>(shape.axis) : kNotFlat;
+  const int8_t axis = shape.isPatch() ? static_cast<int8_t>(shape.axis) : kNotFlat;
+  if (cells_[slot].flat_axis != axis) cells_.edit(slot).flat_axis = axis;
 }
 
 Moments MomentLevel::moments(uint32_t slot) const {

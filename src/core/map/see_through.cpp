@@ -56,17 +56,17 @@ struct MapBuilder::Ray {
 
 void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
   const double inverse_size = 1.0 / voxelSize(1);
-  const size_t stride = 1 + centroids_.size() / (kLines + 1);
-  cleared_.clear();
-  for (size_t i = scans_ % stride; i < centroids_.size(); i += stride) {
-    const Ray ray(sensor, centroids_[i]);
+  const size_t stride = 1 + scan_.centroids.size() / (kLines + 1);
+  scan_.cleared.clear();
+  for (size_t i = scans_ % stride; i < scan_.centroids.size(); i += stride) {
+    const Ray ray(sensor, scan_.centroids[i]);
     const double reach = ray.length - kBehind * voxel_size_;
     if (!(reach > 0)) continue;
     forEachOnRay(match_map_.occupied(1), sensor * inverse_size,
                  (sensor + reach * ray.direction) * inverse_size,
                  [&](const VoxelIndex& parent) { lookThrough(ray, parent); });
   }
-  for (const VoxelIndex& v : cleared_) remove(v);
+  for (const VoxelIndex& v : scan_.cleared) remove(v);
 }
 
 void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
@@ -79,9 +79,9 @@ void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
     const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(block), v);
     if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
     if (!isSeenThrough(ray, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
-    Hit& hit = hits_[slot];
+    Hit& hit = hits_.edit(slot);
     hit.last_pass = scans_;
-    if (++hit.passes == static_cast<uint32_t>(config_.clear_after)) cleared_.push_back(v);
+    if (++hit.passes == static_cast<uint32_t>(config_.clear_after)) scan_.cleared.push_back(v);
   }
 }
 
@@ -116,7 +116,7 @@ void MapBuilder::remove(const VoxelIndex& v) {
   }
   subtractMoments(v);
   const uint32_t slot = hit_grid_.find(v);
-  hits_[slot] = {};
+  hits_.edit(slot) = {};
   free_hits_.push_back(slot);
   hit_grid_.erase(v);
   VoxelIndex at = coarser(v, 1);

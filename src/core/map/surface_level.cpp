@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/map/surface_level.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace edgevox {
@@ -68,13 +67,13 @@ uint32_t SurfaceLevel::takeSlot() {
 uint32_t SurfaceLevel::insert(const VoxelIndex& v) {
   const uint32_t slot = grid_.insert(v, nextSlot());
   if (slot == nextSlot()) takeSlot();
-  while (selected_.size() < grid_.blockCount()) selected_.emplace_back();
+  while (selected_.size() < grid_.blockCount()) selected_.grow();
   return slot;
 }
 
 uint32_t SurfaceLevel::insertBack(uint32_t slot) {
   const uint32_t back = takeSlot();
-  surfaces_[slot].back_surface = back;
+  surfaces_.edit(slot).back_surface = back;
   return back;
 }
 
@@ -82,7 +81,7 @@ void SurfaceLevel::erase(const VoxelIndex& v) {
   setSelected(v, false);
   for (uint32_t slot = slotOf(v); slot != kNone;) {
     const uint32_t next = surfaces_[slot].back_surface;
-    surfaces_[slot] = {};
+    surfaces_.edit(slot) = {};
     free_.push_back(slot);
     slot = next;
   }
@@ -96,10 +95,10 @@ bool SurfaceLevel::isSelected(const VoxelIndex& v) const {
 }
 
 void SurfaceLevel::setSelected(const VoxelIndex& v, bool selected) {
-  Grid::Bits& bits = selected_[blockOf(v)];
+  const size_t block = blockOf(v);
   const int cell = Grid::Layout::cell(v);
-  if (bits.test(cell) == selected) return;
-  bits.flip(cell);
+  if (selected_[block].test(cell) == selected) return;
+  selected_.edit(block).flip(cell);
   selected ? ++selected_count_ : --selected_count_;
 }
 
@@ -122,8 +121,6 @@ void SurfaceLevel::checkRead() {
   }
 }
 
-size_t SurfaceLevel::bytes() const {
-  return grid_.bytes() + selected_.size() * sizeof(Grid::Bits) + surfaces_.bytes();
-}
+size_t SurfaceLevel::bytes() const { return grid_.bytes() + selected_.bytes() + surfaces_.bytes(); }
 
 }  // namespace edgevox

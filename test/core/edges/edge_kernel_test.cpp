@@ -362,7 +362,7 @@ Voxels labelledDense(const Voxels& voxels, const kernel::DenseThresholds& thresh
     std::copy(grid.block(slot).begin(), grid.block(slot).end(), targets.begin());
     kernel::labelBlockDense<kSide, double>(rows.data(), targets.data(), found.data(),
                                            kernel::integerTaps(), thresholds);
-    auto& out = edges.block(edges.insertBlock(block));
+    auto& out = edges.editBlock(edges.insertBlock(block));
     for (size_t row = 0; row < out.size(); ++row) {
       out[row] = static_cast<typename BitGrid<kSide>::Row>(found[row]);
     }
