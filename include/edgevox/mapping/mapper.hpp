@@ -18,8 +18,16 @@ class Mapper {
  public:
   explicit Mapper(const Config& config, Clock clock = Clock::kProcessCpu);
 
+  /// track(), then insert() if the scan was located.
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
+  /// Where the scan was taken: all of the result but the times of insert(). The map is as before,
+  /// or cleared as the clock has jumped back.
+  ScanResult track(const VoxelScan& scan, const ScanPrior& prior = {});
+  /// Adds the scan that track() has just located to the map, and the times that takes to its
+  /// result.
+  void insert(const VoxelScan& scan, ScanResult& result);
 
+  /// A copy is cheap, see MapBuilder.
   const MapBuilder& map() const { return map_; }
   /// The edges of the last located scan, by it and those before it.
   const RecentEdges& recentEdges() const { return recent_edges_; }
@@ -37,7 +45,6 @@ class Mapper {
 
  private:
   void clockJumped();
-  void insert(const VoxelScan& scan, ScanResult& result);
 
   AfterClockJump after_clock_jump_;
   Clock clock_;

@@ -13,6 +13,12 @@ Mapper::Mapper(const Config& config, Clock clock)
       recent_edges_(config.voxel_size, config.edges, config.mapper.edge_window, config.threads) {}
 
 ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
+  ScanResult result = track(scan, prior);
+  if (result.located()) insert(scan, result);
+  return result;
+}
+
+ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
   StageTimer timer(clock_);
   const ClockWatch::Order order = tracker_.checkStamp(scan.stamp);
   if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
@@ -24,7 +30,6 @@ ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {
       scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
   result.clock_jumped = clock_jumped;
   result.times.match = static_cast<float>(timer.lap());
-  if (result.located()) insert(scan, result);
   return result;
 }
 
