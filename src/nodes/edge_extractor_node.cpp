@@ -49,17 +49,17 @@ void EdgeExtractorNode::process(const Input::Arrival& arrival) {
   const EdgeCount count = extractor_.extract(scan);
   watchSparsity(scan, count);
   const double seconds = timer.lap();
-
-  const auto message = boost::make_shared<VoxelScanStamped>(*arrival.message);
-  setEdges(scan, count, *message);
-  message->extract_seconds = static_cast<float>(seconds);
-  message->dropped += input_.dropped();
-  addSettings(parameters_.config, {"edges/"}, *message);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_.last = count;
     state_.times.add(seconds);
   }
+  if (edges_.getNumSubscribers() + cloud_.getNumSubscribers() == 0) return;
+  const auto message = boost::make_shared<VoxelScanStamped>(*arrival.message);
+  setEdges(scan, count, *message);
+  message->extract_seconds = static_cast<float>(seconds);
+  message->dropped += input_.dropped();
+  addSettings(parameters_.config, {"edges/"}, *message);
   edges_.publish(message);
   if (cloud_.getNumSubscribers() > 0) cloud_.publish(cloudOf(*message, ScanPart::kEdges));
 }

@@ -21,8 +21,9 @@
 
 namespace edgevox {
 
-/// `voxels` to `edges`, the same with the edge voxels marked, and, if somebody listens,
-/// `edges_cloud`. Scans with a bad stamp or made with another configuration are refused.
+/// `voxels` to `edges`, the same with the edge voxels marked, and `edges_cloud`, for display and
+/// for whoever else listens; watches whether the points are dense enough for the voxels. Scans with
+/// a bad stamp or made with another configuration are refused.
 class EdgeExtractorNode {
  public:
   /// Throws ConfigError.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/mapper_node.hpp"
 
-#include <algorithm>
+#include <optional>
 
 #include "nodes/save_run.hpp"
 #include "ros/map_messages.hpp"
@@ -13,7 +13,6 @@ namespace {
 constexpr double kTransformCache = 30.0;    // [s]
 constexpr double kPoll = 0.002;             // of TF [s]
 constexpr double kLongestLatency = 3600.0;  // more is a scan from a bag [s]
-constexpr double kMapShare = 0.05;          // of the time, for clouds of the map
 
 /// Time since the arrival of the cloud; 0 if that was on another day or computer [s].
 float latencyOf(const VoxelScanStamped& scan) {
@@ -39,7 +38,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       pose_publisher_(handle, parameters_.map_frame, parameters_.frames.base,
                       parameters_.path_length),
       mapper_(parameters_.config, Clock::kWall),
-      input_(handle, "edges", parameters_.queue_size, log_,
+      input_(handle, "voxels", parameters_.queue_size, log_,
              [this](const Input::Arrival& arrival) { process(arrival); }),
       map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
@@ -91,25 +90,34 @@ void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {
 }
 
 ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
-  const ScanResult result = mapper_.process(fromMessage(scan), transforms.prior());
-  if (result.clock_jumped) {
-    const bool cleared = parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap;
-    if (cleared) pose_publisher_.reset();
-    log_.warn("clock_jump",
-              "the stamps have jumped back: the velocity is forgotten, and the map is " +
-                  std::string(cleared ? "cleared" : "kept; call reset for a new one"));
+  const VoxelScan voxels = fromMessage(scan);
+  ScanResult result = mapper_.track(voxels, transforms.prior());
+  if (result.clock_jumped) clockJumped();
+  publishPose(scan, result, transforms);
+  const float latency = latencyOf(scan);
+  if (result.located()) {
+    mapper_.insert(voxels, result);
+    ++map_version_;
+    publishScanEdges(scan.header.stamp);
   }
   if (mapper_.map().isFull()) log_.warn("map_full", fullText(parameters_.config.map));
-  publishPose(scan, result, transforms);
-  if (result.located()) publishScanEdges(scan.header.stamp);
   ScanReport report = reportOn(scan, result);
-  report.latency = latencyOf(scan);
+  report.latency = latency;
   const auto total = static_cast<double>(timesOf(report).total());
   run_.time_field = scan.time_field;
   run_.add(scan.number, toPipelineResult(scan, result), transforms.T_base_sensor, total,
            static_cast<double>(report.latency));
-  if (result.located()) ++map_version_;
   return report;
+}
+
+void MapperNode::clockJumped() {
+  const bool cleared = parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap;
+  if (cleared) pose_publisher_.reset();
+  ++map_version_;
+  ++map_start_;
+  log_.warn("clock_jump",
+            "the stamps have jumped back: the velocity is forgotten, and the map is " +
+                std::string(cleared ? "cleared" : "kept; call reset for a new one"));
 }
 
 void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& result,
@@ -155,19 +163,18 @@ void MapperNode::report(ScanReport report) {
 }
 
 void MapperNode::publishMap() {
-  MapPublisher::Content content;
-  ros::Time stamp;
-  ros::WallTime start;
+  const std::lock_guard<std::mutex> publishing(publishing_);
+  std::optional<nav_msgs::Path> path;
+  std::optional<MapSnapshot> snapshot;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    start = ros::WallTime::now();  // waiting for a scan costs nothing
-    pose_publisher_.publishPath();
-    content = map_publisher_.collect(mapper_.map(), map_version_);
-    stamp = last_stamp_;
+    path = pose_publisher_.takePath();
+    if (map_publisher_.isDue(map_version_)) {
+      snapshot = MapSnapshot{mapper_.map(), map_version_, map_start_, last_stamp_};
+    }
   }
-  map_publisher_.publish(content, parameters_.config.voxel_size, stamp);
-  const double taken = (ros::WallTime::now() - start).toSec();
-  map_timer_.setPeriod(ros::WallDuration(std::max(parameters_.map_period, taken / kMapShare)));
+  if (path) pose_publisher_.publish(*path);
+  if (snapshot) map_publisher_.publish(*snapshot);
 }
 
 bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response) {
@@ -199,6 +206,7 @@ bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&
   status_ = {};
   status_.droppedTold() = input_.dropped();
   ++map_version_;
+  ++map_start_;
   response.message = "the map is empty; the next scan is its first";
   response.success = static_cast<uint8_t>(true);
   return true;
@@ -208,11 +216,15 @@ void MapperNode::diagnose(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
   const TransformReading transforms = transforms_.reading();
   const std::string missing = services_.missing();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  status_.fill(mapper_.map(), status);
+  std::unique_lock<std::mutex> lock(mutex_);
+  const MapBuilder map = mapper_.map();
+  const MapperStatus state = status_;
+  lock.unlock();
+  state.fill(map, status);
+  if (map.isFull()) warn(fullText(parameters_.config.map), status);
+  lock.lock();
   addInput(reading, status_.droppedTold(), status);
   addTransforms(transforms, transforms_told_, status);
-  if (mapper_.map().isFull()) warn(fullText(parameters_.config.map), status);
   if (!missing.empty()) warn("services " + missing, status);
 }
 

@@ -28,9 +28,10 @@
 
 namespace edgevox {
 
-/// `edges` (or `voxels`) to the pose on TF, `odom` and `path`, to the map on `map_edges`,
-/// `map_boxes` and `map_occupied`, and to the edges of the last scan by those before it on
-/// `scan_edges`. `scan_report` tells what became of every scan.
+/// `voxels` (or `edges`) to the pose on TF, `odom` and `path`, to the map on `map_edges`,
+/// `map_boxes`, `map_boxes_update` and `map_occupied`, and to the edges of the last scan by those
+/// before it on `scan_edges`. `scan_report` tells what became of every scan. A scan waits for no
+/// publishing, saving or diagnosing but while a snapshot of the map is taken.
 class MapperNode {
  public:
   /// Throws ConfigError.
@@ -44,6 +45,7 @@ class MapperNode {
   void watchClock(double stamp);
   void waitForTransforms(const Input::Arrival& arrival) const;
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
+  void clockJumped();
   void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                    const ScanTransforms& transforms);
   void publishScanEdges(const ros::Time& stamp) const;
@@ -59,6 +61,7 @@ class MapperNode {
   ClockWatch clock_watch_;
   ros::Publisher reports_;
   ros::Publisher scan_edges_;
+  std::mutex publishing_;  // of the map
   MapPublisher map_publisher_;
 
   std::mutex mutex_;  // of all below, up to the input
@@ -69,6 +72,7 @@ class MapperNode {
   RunRecord run_;
   MapperStatus status_;
   uint64_t map_version_ = 0;
+  uint64_t map_start_ = 0;        // differs after a reset or a jump of the clock
   uint64_t transforms_told_ = 0;  // as refused
   ros::Time last_stamp_;          // of the last located scan
 

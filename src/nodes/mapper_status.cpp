@@ -18,7 +18,8 @@ void MapperStatus::add(const ScanReport& report) {
   if (!report.located) return;
   const StageTimes times = timesOf(report);
   for (size_t i = 0; i < kStages.size(); ++i) {
-    times_[i].add(static_cast<double>(times.*kStages[i].time));
+    const float seconds = times.*kStages[i].time;
+    if (seconds > 0) times_[i].add(static_cast<double>(seconds));
   }
   if (report.latency > 0) latency_.add(static_cast<double>(report.latency));
 }
@@ -58,7 +59,6 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("required hit ratio", last_.required_hit_ratio);
   status.add("matches", last_.matches);
   status.add("restarts", last_.restarts);
-  status.add("edge voxels of the scan", last_.edge_voxels);
   status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
   status.add("occupied voxels of the map", map.hitVoxels().voxelCount());
   status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
@@ -66,7 +66,9 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("centroids past map/memory, left out", map.centroidsPastMemory());
   status.add("clouds refused before", last_.refused);
   status.add("scans dropped in all", last_.dropped);
-  for (size_t i = 0; i < times_.size(); ++i) addTimes(kStages[i].name, times_[i], status);
+  for (size_t i = 0; i < times_.size(); ++i) {
+    if (!times_[i].empty()) addTimes(kStages[i].name, times_[i], status);
+  }
   addTimes("latency", latency_, status);
 }
 

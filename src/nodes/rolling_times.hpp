@@ -13,6 +13,7 @@ class RollingTimes {
  public:
   void add(double seconds) { seconds_.push(seconds); }
 
+  bool empty() const { return seconds_.empty(); }
   /// The quantile of the durations [s]; NaN if there are none.
   double quantile(double q) const { return edgevox::quantile(seconds_.values(), q); }
 

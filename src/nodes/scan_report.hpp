@@ -18,7 +18,7 @@ StageTimes timesOf(const ScanReport& report);
 /// Why a scan has no pose and what to do about it; empty if it has one.
 std::string adviceOn(const ScanResult& result);
 
-/// What the offline pipeline would have given for the scan.
+/// What the offline pipeline would have given for the scan, as far as it is known.
 PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& result);
 
 ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result);

@@ -17,6 +17,8 @@ constexpr std::array<std::array<float, 3>, 6> kColours = {{{0.28F, 0.20F, 0.55F}
                                                            {0.68F, 0.84F, 0.25F},
                                                            {0.99F, 0.91F, 0.25F}}};
 
+constexpr size_t kRim = 50;  // one voxel in as many is left out at either end of the heights
+
 /// 0 <= height <= 1
 std_msgs::ColorRGBA colourOf(float height) {
   const float position = height * static_cast<float>(kColours.size() - 1);
@@ -34,24 +36,19 @@ std_msgs::ColorRGBA colourOf(float height) {
   return colour;
 }
 
-struct Heights {
-  int32_t low = 0;
-  int32_t high = 0;
-};
-
-/// The heights of all but the lowest and highest 2 %.
-Heights heightsOf(const std::vector<VoxelIndex>& voxels) {
-  std::vector<int32_t> z(voxels.size());
-  std::transform(voxels.begin(), voxels.end(), z.begin(), [](const VoxelIndex& v) { return v.z; });
-  const auto at = [&](size_t rank) {
-    const auto nth = z.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(z.begin(), nth, z.end());
-    return *nth;
-  };
-  return {at(z.size() / 50), at(z.size() - 1 - z.size() / 50)};
-}
-
 }  // namespace
+
+Heights heightsOf(const std::map<int32_t, size_t>& layers) {
+  size_t count = 0;
+  for (const auto& layer : layers) count += layer.second;
+  if (count == 0) return {};
+  const auto at = [&](size_t rank) {
+    auto layer = layers.begin();
+    for (; rank >= layer->second; ++layer) rank -= layer->second;
+    return layer->first;
+  };
+  return {at(count / kRim), at(count - 1 - count / kRim)};
+}
 
 sensor_msgs::PointCloud2 toCloud(const std::vector<Eigen::Vector3f>& points,
                                  const std_msgs::Header& header) {
@@ -78,7 +75,7 @@ sensor_msgs::PointCloud2 toCloud(const std::vector<Eigen::Vector3f>& points,
 }
 
 visualization_msgs::Marker toBoxes(const std::vector<VoxelIndex>& voxels, double voxel_size,
-                                   const std_msgs::Header& header) {
+                                   const Heights& heights, const std_msgs::Header& header) {
   visualization_msgs::Marker boxes;
   boxes.header = header;
   boxes.ns = "edges";
@@ -89,7 +86,6 @@ visualization_msgs::Marker toBoxes(const std::vector<VoxelIndex>& voxels, double
   boxes.scale.x = boxes.scale.y = boxes.scale.z = voxel_size;
   boxes.color.a = 1.0F;
   if (voxels.empty()) return boxes;
-  const Heights heights = heightsOf(voxels);
   const auto range = static_cast<float>(std::max(heights.high - heights.low, 1));
   boxes.points.reserve(voxels.size());
   boxes.colors.reserve(voxels.size());
@@ -104,6 +100,13 @@ visualization_msgs::Marker toBoxes(const std::vector<VoxelIndex>& voxels, double
     boxes.colors.push_back(colourOf((height - static_cast<float>(heights.low)) / range));
   }
   return boxes;
+}
+
+visualization_msgs::Marker toBoxes(const std::vector<VoxelIndex>& voxels, double voxel_size,
+                                   const std_msgs::Header& header) {
+  std::map<int32_t, size_t> layers;
+  for (const VoxelIndex& voxel : voxels) ++layers[voxel.z];
+  return toBoxes(voxels, voxel_size, heightsOf(layers), header);
 }
 
 }  // namespace edgevox

@@ -1,50 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/map_publisher.hpp"
 
+#include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/Marker.h>
+
 #include <utility>
 
 #include "ros/map_messages.hpp"
 
 namespace edgevox {
+namespace {
+
+constexpr double kWholesShare = 0.05;  // of the time, for the whole map
+constexpr uint32_t kUpdates = 10;      // that wait for a slow listener
+
+}  // namespace
 
 MapPublisher::MapPublisher(ros::NodeHandle handle, std::string map_frame)
     : map_frame_(std::move(map_frame)),
       edges_{handle.advertise<sensor_msgs::PointCloud2>("map_edges", 1, true)},
       occupied_{handle.advertise<sensor_msgs::PointCloud2>("map_occupied", 1, true)},
-      boxes_{handle.advertise<visualization_msgs::Marker>("map_boxes", 1, true)} {}
+      boxes_{handle.advertise<visualization_msgs::Marker>("map_boxes", 1, true)},
+      joined_(std::make_shared<std::atomic<bool>>(false)),
+      update_{handle.advertise<visualization_msgs::MarkerArray>(
+          "map_boxes_update", kUpdates,
+          [joined = joined_](const ros::SingleSubscriberPublisher&) { *joined = true; })} {}
 
 bool MapPublisher::Topic::isDue(uint64_t current) const {
   return version != current && publisher.getNumSubscribers() > 0;
 }
 
-MapPublisher::Content MapPublisher::collect(const MapBuilder& map, uint64_t version) {
-  Content content;
-  content.has_boxes = boxes_.isDue(version);
-  content.has_edges = edges_.isDue(version);
-  content.has_occupied = occupied_.isDue(version);
-  if (content.has_boxes) {
-    map.edgeVoxels().forEach([&](const VoxelIndex& v) { content.boxes.push_back(v); });
-    boxes_.version = version;
-  }
-  if (content.has_edges) {
-    content.edges = centroidsOf(map, map.edgeVoxels());
-    edges_.version = version;
-  }
-  if (content.has_occupied) {
-    content.occupied = centroidsOf(map, map.hitVoxels());
-    occupied_.version = version;
-  }
-  return content;
+bool MapPublisher::isUpdateDue(uint64_t version) const {
+  return update_.isDue(version) || (*joined_ && update_.publisher.getNumSubscribers() > 0);
 }
 
-void MapPublisher::publish(const Content& content, double voxel_size,
-                           const ros::Time& stamp) const {
+bool MapPublisher::isDue(uint64_t version) const {
+  const bool wholes = edges_.isDue(version) || occupied_.isDue(version) || boxes_.isDue(version);
+  return isUpdateDue(version) || (wholes && areWholesDue());
+}
+
+void MapPublisher::publish(const MapSnapshot& snapshot) {
   std_msgs::Header header;
   header.frame_id = map_frame_;
-  header.stamp = stamp;
-  if (content.has_boxes) boxes_.publisher.publish(toBoxes(content.boxes, voxel_size, header));
-  if (content.has_edges) edges_.publisher.publish(toCloud(content.edges, header));
-  if (content.has_occupied) occupied_.publisher.publish(toCloud(content.occupied, header));
+  header.stamp = snapshot.stamp;
+  if (isUpdateDue(snapshot.version)) publishUpdate(snapshot, header);
+  if (areWholesDue()) publishWholes(snapshot, header);
+}
+
+void MapPublisher::publishWholes(const MapSnapshot& snapshot, const std_msgs::Header& header) {
+  const ros::WallTime begin = ros::WallTime::now();
+  const MapBuilder& map = snapshot.map;
+  const auto take = [&](Topic& topic) {
+    const bool due = topic.isDue(snapshot.version);
+    if (due) topic.version = snapshot.version;
+    return due;
+  };
+  if (take(boxes_)) {
+    std::vector<VoxelIndex> voxels;
+    map.edgeVoxels().forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
+    boxes_.publisher.publish(toBoxes(voxels, map.voxelSize(0), header));
+  }
+  if (take(edges_)) edges_.publisher.publish(toCloud(centroidsOf(map, map.edgeVoxels()), header));
+  if (take(occupied_)) {
+    occupied_.publisher.publish(toCloud(centroidsOf(map, map.hitVoxels()), header));
+  }
+  const ros::WallTime end = ros::WallTime::now();
+  next_wholes_ = end + ros::WallDuration((end - begin).toSec() / kWholesShare);
+}
+
+/// Whoever has just joined gets the boxes whole, and so does everybody after a new start: rviz
+/// forgets them when the clock jumps back.
+void MapPublisher::publishUpdate(const MapSnapshot& snapshot, const std_msgs::Header& header) {
+  if (joined_->exchange(false) || snapshot.start != start_) box_updates_.restart();
+  start_ = snapshot.start;
+  update_.version = snapshot.version;
+  const auto markers =
+      box_updates_.next(snapshot.map.edgeVoxels(), snapshot.map.voxelSize(0), header);
+  if (!markers.markers.empty()) update_.publisher.publish(markers);
 }
 
 }  // namespace edgevox

@@ -5,32 +5,34 @@
 #include <ros/publisher.h>
 #include <ros/time.h>
 
+#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "edgevox/map/map_builder.hpp"
+#include "ros/box_updates.hpp"
 
 namespace edgevox {
 
-/// Publishes the map, latched, for whoever listens: `map_edges` and `map_occupied` are centroids,
-/// `map_boxes` the edge voxels as boxes.
+/// A map as it was between two scans.
+struct MapSnapshot {
+  MapBuilder map;
+  uint64_t version = 0;  ///< differs whenever the map does
+  uint64_t start = 0;    ///< differs after a new start of the map or the clock
+  ros::Time stamp;       ///< of the last located scan
+};
+
+/// Publishes the map for whoever listens. Latched and whole, but seldom where that takes long:
+/// `map_edges` and `map_occupied` are centroids, `map_boxes` the edge voxels as boxes. At every
+/// call: `map_boxes_update`, the boxes that have changed.
 class MapPublisher {
  public:
   MapPublisher(ros::NodeHandle handle, std::string map_frame);
 
-  /// What a listener has not got yet, to be taken while the map stands still.
-  struct Content {
-    std::vector<VoxelIndex> boxes;
-    std::vector<Eigen::Vector3f> edges;
-    std::vector<Eigen::Vector3f> occupied;
-    bool has_boxes = false;
-    bool has_edges = false;
-    bool has_occupied = false;
-  };
-  /// `version` differs whenever the map does.
-  Content collect(const MapBuilder& map, uint64_t version);
-  void publish(const Content& content, double voxel_size, const ros::Time& stamp) const;
+  /// Whether there is something to publish of the map of this version.
+  bool isDue(uint64_t version) const;
+  void publish(const MapSnapshot& snapshot);
 
  private:
   struct Topic {
@@ -40,10 +42,20 @@ class MapPublisher {
     bool isDue(uint64_t current) const;
   };
 
+  bool areWholesDue() const { return ros::WallTime::now() >= next_wholes_; }
+  bool isUpdateDue(uint64_t version) const;
+  void publishWholes(const MapSnapshot& snapshot, const std_msgs::Header& header);
+  void publishUpdate(const MapSnapshot& snapshot, const std_msgs::Header& header);
+
   std::string map_frame_;
   Topic edges_;
   Topic occupied_;
   Topic boxes_;
+  ros::WallTime next_wholes_;
+  std::shared_ptr<std::atomic<bool>> joined_;  // a listener to the updates, since the last one
+  Topic update_;
+  BoxUpdates box_updates_;
+  uint64_t start_ = 0;  // of the last update
 };
 
 }  // namespace edgevox

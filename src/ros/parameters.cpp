@@ -109,7 +109,8 @@ std::vector<Parameter> nodeParametersOf(MapperParameters& p) {
       {"transform_wait", &p.transform_wait, 0, 10, "s",
        "how long after its arrival a scan may wait for its transforms"},
       {"path_length", &p.path_length, 1, 1000000, "", "poses in `path`; the oldest go first"},
-      {"map_period", &p.map_period, 0.1, 3600, "s", "least time between two clouds of the map"},
+      {"map_period", &p.map_period, 0.1, 3600, "s",
+       "least time between two clouds or updates of the map"},
   };
   all.insert(all.end(), own.begin(), own.end());
   return all;

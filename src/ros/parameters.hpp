@@ -24,7 +24,7 @@ struct MapperParameters : NodeParameters {
   std::string output;           ///< folder of save_map, absolute
   double transform_wait = 0.3;  ///< for the transforms of a scan, from its arrival [s]
   int path_length = 5000;       ///< poses
-  double map_period = 1.0;      ///< least time between two clouds of the map [s]
+  double map_period = 1.0;      ///< least time between two clouds or updates of the map [s]
 };
 
 /// What a nodelet takes beside the configuration, valid as long as the argument.

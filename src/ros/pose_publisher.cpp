@@ -2,7 +2,6 @@
 #include "ros/pose_publisher.hpp"
 
 #include <nav_msgs/Odometry.h>
-#include <nav_msgs/Path.h>
 
 #include <utility>
 
@@ -78,15 +77,15 @@ void PosePublisher::appendToPath(const geometry_msgs::PoseStamped& pose) {
   path_changed_ = true;
 }
 
-void PosePublisher::publishPath() {
-  if (!path_changed_ || path_publisher_.getNumSubscribers() == 0) return;
+std::optional<nav_msgs::Path> PosePublisher::takePath() {
+  if (!path_changed_ || path_publisher_.getNumSubscribers() == 0) return std::nullopt;
   nav_msgs::Path path;
   path.header.frame_id = map_frame_;
   if (!path_.empty()) path.header.stamp = path_.newest().header.stamp;
   path.poses.reserve(path_.size());
   for (size_t i = 0; i < path_.size(); ++i) path.poses.push_back(path_[i]);
-  path_publisher_.publish(path);
   path_changed_ = false;
+  return path;
 }
 
 void PosePublisher::reset() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <std_msgs/Header.h>
@@ -14,7 +15,7 @@
 
 namespace edgevox {
 
-/// Publishes poses of the base in the map: `odom` at once, `path` when asked to.
+/// Publishes poses of the base in the map: `odom` at once, `path` when it is given back.
 class PosePublisher {
  public:
   /// `base_frame` empty: the sensor's own frame.
@@ -25,9 +26,11 @@ class PosePublisher {
   /// as nothing was to be learned in some direction, is published as 1e6 for all. False if the pose
   /// is not finite: nothing was published.
   bool publish(const std_msgs::Header& header, const ScanResult& scan, const Pose& T_base_sensor);
-  /// Publishes the path if it has changed and somebody listens. Poses less than 5 cm apart are left
-  /// out.
-  void publishPath();
+  /// The poses so far, if there are others than at the last call and somebody listens. Poses less
+  /// than 5 cm apart are left out.
+  std::optional<nav_msgs::Path> takePath();
+  /// May be called while the other functions are.
+  void publish(const nav_msgs::Path& path) const { path_publisher_.publish(path); }
   void reset();
 
  private:

@@ -3,7 +3,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -27,17 +26,26 @@ std::string fixed(double value, int decimals) {
   return fixedText(value, decimals);
 }
 
-template <typename Seconds>
-std::vector<double> milliseconds(const std::deque<ScanRecord>& scans, const Seconds& seconds) {
-  std::vector<double> values(scans.size());
-  std::transform(scans.begin(), scans.end(), values.begin(), [&](const ScanRecord& record) {
-    return kMilliseconds * static_cast<double>(seconds(record));
-  });
+/// Of the scans of which it is known.
+template <typename Value>
+std::vector<double> valuesOf(const Pool<ScanRecord>& scans, const Value& value) {
+  std::vector<double> values;
+  for (const ScanRecord& record : scans) {
+    const auto known = static_cast<double>(value(record));
+    if (std::isfinite(known)) values.push_back(known);
+  }
   return values;
 }
 
+template <typename Seconds>
+std::vector<double> milliseconds(const Pool<ScanRecord>& scans, const Seconds& seconds) {
+  return valuesOf(scans, [&](const ScanRecord& record) {
+    return kMilliseconds * static_cast<double>(seconds(record));
+  });
+}
+
 /// [ms]
-std::vector<double> latenciesOf(const std::deque<ScanRecord>& scans) {
+std::vector<double> latenciesOf(const Pool<ScanRecord>& scans) {
   std::vector<double> values;
   for (const ScanRecord& record : scans) {
     if (record.latency > 0) values.push_back(kMilliseconds * static_cast<double>(record.latency));
@@ -63,11 +71,8 @@ void addScans(const RunRecord& run, Report& report) {
 }
 
 /// Median over the scans.
-double sparseShareOf(const std::deque<ScanRecord>& scans) {
-  std::vector<double> shares(scans.size());
-  std::transform(scans.begin(), scans.end(), shares.begin(),
-                 [](const ScanRecord& r) { return static_cast<double>(r.sparse_share); });
-  return quantile(shares, 0.5);
+double sparseShareOf(const Pool<ScanRecord>& scans) {
+  return quantile(valuesOf(scans, [](const ScanRecord& r) { return r.sparse_share; }), 0.5);
 }
 
 void addPoints(const RunRecord& run, Report& report) {
@@ -82,7 +87,7 @@ void addPoints(const RunRecord& run, Report& report) {
   report.add("point_times_ignored", run.dropped_points.bad_time);
 }
 
-void addTimes(const std::deque<ScanRecord>& scans, Report& report) {
+void addTimes(const Pool<ScanRecord>& scans, Report& report) {
   const std::vector<double> totals = milliseconds(scans, [](const auto& r) { return r.total; });
   report.add("ms_mean", mean(totals));
   report.add("ms_p95", quantile(totals, 0.95));
@@ -141,7 +146,7 @@ MapFiles mapFilesOf(const RunResults& results) {
 
 }  // namespace
 
-std::string timingsCsv(const std::deque<ScanRecord>& scans) {
+std::string timingsCsv(const Pool<ScanRecord>& scans) {
   std::string text = "scan,stamp,status,hit_ratio,points,voxels";
   for (const Stage& stage : kStages) text += std::string(",") + stage.name + "_ms";
   text += ",total_ms,latency_ms\n";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,7 +16,7 @@
 namespace edgevox {
 
 /// A row a scan, a column a stage.
-std::string timingsCsv(const std::deque<ScanRecord>& scans);
+std::string timingsCsv(const Pool<ScanRecord>& scans);
 /// A row for each pose that the reference knows.
 std::string errorsCsv(const TrajectoryErrors& errors);
 

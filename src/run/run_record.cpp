@@ -2,9 +2,12 @@
 #include "run/run_record.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace edgevox {
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 PoseRecord recordOf(double stamp, const Pose& pose) {
   const Eigen::Quaterniond q(pose.linear());
@@ -31,14 +34,15 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.hit_ratio = static_cast<float>(scan.hit_ratio);
   record.points = static_cast<uint32_t>(result.points);
   record.voxels = static_cast<uint32_t>(result.scan_voxels);
-  record.sparse_share = static_cast<float>(result.edges.sparseShare());
+  record.sparse_share = static_cast<float>(result.edges ? result.edges->sparseShare() : kUnknown);
   record.times = scan.times;
+  if (!result.edges) record.times.extract = static_cast<float>(kUnknown);
   record.total = static_cast<float>(total);
   record.latency = static_cast<float>(latency);
-  scans.push_back(record);
+  scans.grow() = record;
 
   if (scan.located()) {
-    poses.push_back(recordOf(scan.stamp, scan.T_map_sensor * T_base_sensor.inverse()));
+    poses.grow() = recordOf(scan.stamp, scan.T_map_sensor * T_base_sensor.inverse());
   }
   if (scan.clock_jumped) ++clock_jumps;
   points += result.points;
@@ -53,9 +57,9 @@ Trajectory RunRecord::trajectory() const {
 }
 
 size_t RunRecord::count(ScanStatus status) const {
-  return static_cast<size_t>(
-      std::count_if(scans.begin(), scans.end(),
-                    [&](const ScanRecord& record) { return record.status == status; }));
+  size_t count = 0;
+  for (const ScanRecord& record : scans) count += record.status == status ? 1 : 0;
+  return count;
 }
 
 }  // namespace edgevox

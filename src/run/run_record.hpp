@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <string>
 
+#include "edgevox/grid/pool.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
@@ -23,9 +23,9 @@ struct ScanRecord {
   float hit_ratio = 0.0F;
   uint32_t points = 0;
   uint32_t voxels = 0;
-  float sparse_share = 0.0F;  ///< EdgeCount::sparseShare()
-  StageTimes times;
-  float total = 0.0F;    ///< time of the whole pipeline [s]
+  float sparse_share = 0.0F;  ///< EdgeCount::sparseShare(); NaN: not known
+  StageTimes times;           ///< extract: NaN where it is not known
+  float total = 0.0F;         ///< time of the whole pipeline [s]
   float latency = 0.0F;  ///< from the arrival of the cloud to its pose, 0 where there is none [s]
 };
 
@@ -36,11 +36,11 @@ struct PoseRecord {
   std::array<double, 3> translation{};  ///< [m]
 };
 
-/// An account of a run, for its files. Grows by 140 bytes a scan, without being moved.
+/// An account of a run, for its files. Grows by 140 bytes a scan; copies share these, see Pool.
 struct RunRecord {
-  std::deque<ScanRecord> scans;
+  Pool<ScanRecord> scans;
   /// T_map_base of the located scans; without a base frame of the sensor.
-  std::deque<PoseRecord> poses;
+  Pool<PoseRecord> poses;
   std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
   size_t clock_jumps = 0;

@@ -30,7 +30,7 @@ void readTransforms(BagReader& bag, CheckedTransforms& transforms, Console& cons
 }
 
 void requireScans(const BagReader& bag, const CloudMapping& mapping) {
-  if (!mapping.run().scans.empty()) return;
+  if (mapping.run().scans.size() > 0) return;
   std::string reasons;
   for (const auto& [reason, count] : mapping.run().left_out) {
     reasons += (reasons.empty() ? "" : ", ") + reason + " " + std::to_string(count);

@@ -61,9 +61,8 @@ inline std::map<std::string, std::string> readTypes() {
 /// Whether all three nodelets of a namespace are there.
 inline bool isMapping(const std::string& space) {
   const Graph graph = readGraph();
-  return graph.isRead(space + "/voxels") && graph.isRead(space + "/edges") &&
-         graph.isPublished(space + "/voxels") && graph.isPublished(space + "/edges") &&
-         graph.services.count(space + "/save_map") > 0 &&
+  return graph.isRead(space + "/voxels") && graph.isPublished(space + "/voxels") &&
+         graph.isPublished(space + "/edges") && graph.services.count(space + "/save_map") > 0 &&
          graph.services.count(space + "/reset") > 0;
 }
 

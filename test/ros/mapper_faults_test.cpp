@@ -219,7 +219,7 @@ TEST_F(FaultsTest, DropsWholeScansAndCountsThem) {
     numbered[i].number = i;
     numbered[i].dropped = 10;  // before they came here
   }
-  for (const VoxelScanStamped& scan : numbered) edges_.publish(scan);
+  for (const VoxelScanStamped& scan : numbered) voxels_.publish(scan);
   EXPECT_TRUE(eventually([&] {  // the last is never dropped
     return reports_.count() > 0 && reports_.messages().back()->number == kScans - 1;
   }));
@@ -236,7 +236,7 @@ TEST_F(FaultsTest, DropsWholeScansAndCountsThem) {
     return s.level >= Status::WARN && hasWords(s.message, {"scans dropped", "slower rate"}) &&
            valueOf(s, "dropped") == std::to_string(dropped);
   }));
-  edges_.publish(scans()[0]);
+  voxels_.publish(scans()[0]);
   ASSERT_TRUE(reports_.waitFor(used.size() + 1));
   EXPECT_EQ(dropped, reports_.messages().back()->dropped);
 }

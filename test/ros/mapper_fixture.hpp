@@ -27,7 +27,7 @@ using Transforms = std::vector<geometry_msgs::TransformStamped>;
 constexpr int kScans = 18;
 constexpr size_t kMiddle = 8;
 
-/// The walk as an edge extractor sends it; number i is of cloud i.
+/// The walk; number i is of cloud i.
 inline const SimulatedRun& walk() {
   static const SimulatedRun run = simulateRun(kScans);
   return run;
@@ -131,12 +131,12 @@ class MapperTest : public NodeletTest {
   void start(int queue_size = 100) {
     setParameter("mapper", "queue_size", queue_size);
     ASSERT_TRUE(load("mapper"));
-    edges_ = ros::NodeHandle().advertise<VoxelScanStamped>(resolved("edges"), 100);
-    ASSERT_EQ(1U, edges_.getNumSubscribers());
+    voxels_ = ros::NodeHandle().advertise<VoxelScanStamped>(resolved("voxels"), 100);
+    ASSERT_LE(1U, voxels_.getNumSubscribers());
   }
 
   void send(const VoxelScanStamped& scan) {
-    edges_.publish(boost::make_shared<VoxelScanStamped>(scan));
+    voxels_.publish(boost::make_shared<VoxelScanStamped>(scan));
     ++sent_;
   }
   bool allReported() const { return reports_.waitFor(sent_); }
@@ -191,7 +191,7 @@ class MapperTest : public NodeletTest {
     return call("save_map", service);
   }
 
-  ros::Publisher edges_;
+  ros::Publisher voxels_;
   Listener<ScanReport> reports_{resolved("scan_report")};
   Listener<nav_msgs::Odometry> odometry_{resolved("odom")};
 

@@ -4,12 +4,14 @@
 #include <visualization_msgs/Marker.h>
 
 #include "ros/mapper_fixture.hpp"
+#include "tools/marker_display.hpp"
 
 namespace edgevox::test {
 namespace {
 
 using Cloud = sensor_msgs::PointCloud2;
 using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
 
 /// The core's map after the scans.
 MapBuilder mapOf(const Scans& scans) {
@@ -43,6 +45,19 @@ void expectBoxes(const MapBuilder& map, const Marker& boxes) {
     const auto& p = boxes.points[i++];
     EXPECT_EQ(voxelCentre(v, map.voxelSize(0)), Eigen::Vector3d(p.x, p.y, p.z));
   });
+}
+
+/// What a display of the updates shows is the map.
+bool isShown(const MapBuilder& map, const Listener<MarkerArray>& updates) {
+  MarkerDisplay display;
+  for (const auto& message : updates.messages()) display.show(*message);
+  const auto shown = display.points();
+  bool all = shown.size() == map.edgeVoxels().voxelCount();
+  map.edgeVoxels().forEach([&](const VoxelIndex& v) {
+    const Eigen::Vector3d c = voxelCentre(v, map.voxelSize(0));
+    all = all && shown.count({c.x(), c.y(), c.z()}) == 1;
+  });
+  return all;
 }
 
 /// From dark blue to yellow with the height.
@@ -119,6 +134,26 @@ TEST_F(MapTest, FollowsForThoseWhoStay) {
   EXPECT_EQ(so_far, edges.count());
 }
 
+TEST_F(MapTest, IsShownByUpdates) {
+  using Updates = Listener<MarkerArray>;
+  start();
+  auto updates = std::make_unique<Updates>(resolved("map_boxes_update"));
+  map(firstScans(kMiddle));
+  ASSERT_TRUE(eventually([&] { return isShown(mapOf(firstScans(kMiddle)), *updates); }));
+  const size_t so_far = updates->count();
+  map({scans().begin() + kMiddle, scans().end()});
+  EXPECT_TRUE(eventually([&] { return isShown(mapOf(scans()), *updates); }));
+  EXPECT_NE(Marker::DELETEALL, updates->messages()[so_far]->markers.front().action);
+
+  updates.reset();
+  updates = std::make_unique<Updates>(resolved("map_boxes_update"));
+  EXPECT_TRUE(eventually([&] { return isShown(mapOf(scans()), *updates); })) << "joined late";
+  call<std_srvs::Trigger>("reset");
+  EXPECT_TRUE(eventually([&] { return isShown(MapBuilder(0.2, 6.4, {}, {}, 1), *updates); }));
+  map(firstScans(kMiddle));
+  EXPECT_TRUE(eventually([&] { return isShown(mapOf(firstScans(kMiddle)), *updates); }));
+}
+
 TEST_F(MapTest, IsGoneAfterAResetAndTheTrajectoryTheFirstAgain) {
   start();
   const Listener<Cloud> edges(resolved("map_edges"));
@@ -154,9 +189,9 @@ TEST_F(MapTest, IsNewAfterUnloadingAndLoading) {
   const Listener<Cloud> edges(resolved("map_edges"));
   ASSERT_TRUE(edges.waitFor(1));
   EXPECT_TRUE(unload("mapper"));
-  EXPECT_EQ(0U, edges_.getNumSubscribers());
+  EXPECT_EQ(0U, voxels_.getNumSubscribers());
   EXPECT_FALSE(ros::service::exists(resolved("reset"), false));
-  edges_.publish(scans()[kMiddle]);  // to nobody
+  voxels_.publish(scans()[kMiddle]);  // to nobody
   ASSERT_TRUE(load("mapper"));
   map(scans());
   std::vector<Pose> expected = walkPoses();
@@ -168,7 +203,7 @@ TEST_F(MapTest, IsNewAfterUnloadingAndLoading) {
 TEST_F(MapTest, CanBeUnloadedWhileScansWait) {
   for (int round = 0; round < 5; ++round) {
     start();
-    for (const VoxelScanStamped& scan : scans()) edges_.publish(scan);
+    for (const VoxelScanStamped& scan : scans()) voxels_.publish(scan);
     EXPECT_TRUE(eventually([&] { return reports_.count() > static_cast<size_t>(round); }));
     EXPECT_TRUE(unload("mapper"));
   }

@@ -131,7 +131,7 @@ TEST_F(MapperTest, ReportsEveryScan) {
     EXPECT_EQ(core.scan.restarts, report.restarts);
     EXPECT_EQ(core.points, report.points);
     EXPECT_EQ(core.scan_voxels, report.voxels);
-    EXPECT_EQ(core.edges.edges, report.edge_voxels);
+    EXPECT_EQ(core.edges->edges, report.edge_voxels);
     EXPECT_NEAR(70.0, report.latency, 10.5);  // of the cloud, not of the scan
     EXPECT_EQ(0.5F, report.voxelize);
     EXPECT_EQ(0.25F, report.extract);
@@ -147,6 +147,19 @@ TEST_F(MapperTest, ReportsEveryScan) {
            valueOf(s, "clouds refused before") == "3" && valueOf(s, "scans dropped in all") == "4";
   }));
   EXPECT_TRUE(tells("mapper", Status::WARN, {"poses come late"}));
+}
+
+TEST_F(MapperTest, TakesScansStraightFromTheVoxelizer) {
+  start();
+  Scans sent = scans();
+  for (VoxelScanStamped& scan : sent) {
+    scan.occupied_voxels = scan.edge_voxels = scan.sparse_voxels = 0;
+    for (Voxel& voxel : scan.voxels) voxel.edge = 0;
+  }
+  map(sent);
+  expectOdometry(walkPoses());
+  EXPECT_EQ(0U, reports_.messages().back()->edge_voxels);
+  EXPECT_EQ(0.0F, reports_.messages().back()->extract);
 }
 
 /// What is left of the poses with at least 5 cm between them, but for the oldest.

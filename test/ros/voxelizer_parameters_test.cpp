@@ -82,7 +82,7 @@ TEST_F(ParametersTest, OnceRightTheNodeletLoads) {
 
 TEST_F(ParametersTest, SilenceIsAWarningThatNamesTheTopic) {
   const std::vector<std::pair<std::string, std::string>> inputs = {
-      {"voxelizer", "points"}, {"edge_extractor", "voxels"}, {"mapper", "edges"}};
+      {"voxelizer", "points"}, {"edge_extractor", "voxels"}, {"mapper", "voxels"}};
   for (const auto& [node, topic] : inputs) ASSERT_TRUE(load(node));
   for (const auto& [node, topic] : inputs) {
     EXPECT_TRUE(tells(node, Status::WARN, {"nothing on '" + resolved(topic) + "' for 5 s"}));

@@ -21,11 +21,12 @@ struct PipelineResult {
   size_t points = 0;
   size_t scan_voxels = 0;
   DroppedPoints dropped;
-  std::string too_large;  ///< see VoxelScan
-  EdgeCount edges;        ///< of the scan
+  std::string too_large;           ///< see VoxelScan
+  std::optional<EdgeCount> edges;  ///< of the scan; none, online, if nobody has extracted them
 };
 
-/// Voxelizer, edge extractor and mapper in a row: the same three calls that the nodelets make.
+/// Voxelizer, edge extractor and mapper in a row: the same calls that the nodelets make. The mapper
+/// does not use the edges of a scan, which are for the counts.
 class Pipeline {
  public:
   /// Throws ConfigError if the configuration is not valid.

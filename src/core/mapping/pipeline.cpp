@@ -31,7 +31,7 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   VoxelScan scan = voxelizer_.voxelize(cloud);
   const double voxelize = timer.lap();
   result.edges = extractor_.extract(scan);
-  density_monitor_.add(scan, result.edges);
+  density_monitor_.add(scan, *result.edges);
   const double extract = timer.lap();
   result.scan = localizer_ ? localizer_->process(scan, prior) : mapper_.process(scan, prior);
   result.scan.times.voxelize = static_cast<float>(voxelize);
