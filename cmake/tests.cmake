@@ -43,6 +43,11 @@ if(CATKIN_ENABLE_TESTING)
       endif()
     endforeach()
   endforeach()
+  target_compile_definitions(${PROJECT_NAME}_core_examples_test PRIVATE
+    EDGEVOX_BUILD_DIR="${CMAKE_CURRENT_BINARY_DIR}"
+    EDGEVOX_CMAKE="${CMAKE_COMMAND}"
+    EDGEVOX_COMPILER="${CMAKE_CXX_COMPILER}"
+    EDGEVOX_COMPILER_LAUNCHER="${CMAKE_CXX_COMPILER_LAUNCHER}")
 endif()
 
 # ---- Tests of the nodelets: test/ros/<name>.test starts what test/ros/<name>_test.cpp looks at ----
