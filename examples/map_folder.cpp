@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps a folder of clouds, without ROS or PCL, and writes the sensor's trajectory.
-#include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -15,6 +12,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/mapping/pipeline.hpp"
+#include "kitti_clouds.hpp"
 
 namespace {
 
@@ -29,8 +27,6 @@ constexpr const char* kUsage =
     "  VOXEL_SIZE  of the map [m] (0.2)\n"
     "  RATE        clouds a second (10): the files hold no stamps\n";
 
-constexpr size_t kPointBytes = 4 * sizeof(float);
-
 double numberFrom(const std::string& text, const std::string& name) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -40,54 +36,17 @@ double numberFrom(const std::string& text, const std::string& name) {
   return value;
 }
 
-std::vector<fs::path> cloudFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".bin") files.push_back(entry.path());
-  }
-  if (files.empty()) throw std::runtime_error("'" + folder.string() + "' holds no .bin files");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<uint8_t> contentOf(const fs::path& file) {
-  std::vector<uint8_t> bytes(fs::file_size(file));
-  if (bytes.size() % kPointBytes != 0) {
-    throw std::runtime_error("'" + file.string() + "' has " + std::to_string(bytes.size()) +
-                             " bytes, no multiple of the 16 of a point: it is cut short or no "
-                             "array of x, y, z, intensity in float32");
-  }
-  std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw std::runtime_error("'" + file.string() + "' cannot be read");
-  return bytes;
-}
-
-/// All points are taken as seen at the stamp: what a sensor that stands, or a KITTI cloud, which is
-/// free of the motion within its sweep, needs. Sensors with a time in each point set view.time.
-edgevox::CloudView viewOf(const std::vector<uint8_t>& bytes, double stamp) {
-  edgevox::CloudView view;
-  view.stamp = stamp;
-  view.frame = "lidar";
-  view.data = bytes.data();
-  view.width = bytes.size() / kPointBytes;
-  view.height = 1;
-  view.point_step = kPointBytes;
-  view.row_step = bytes.size();
-  return view;
-}
-
 void run(const fs::path& folder, const fs::path& output, double voxel_size, double rate) {
   edgevox::Config config;
   config.voxel_size = voxel_size;
   edgevox::Pipeline pipeline(config);
   edgevox::Trajectory trajectory;
   std::map<std::string, int> counts;  // by what became of a cloud
-  const std::vector<fs::path> files = cloudFiles(folder);
+  const std::vector<fs::path> files = kitti::cloudFiles(folder);
   for (size_t i = 0; i < files.size(); ++i) {
-    const std::vector<uint8_t> bytes = contentOf(files[i]);
+    const std::vector<uint8_t> bytes = kitti::contentOf(files[i]);
     const double stamp = static_cast<double>(i) / rate;
-    const edgevox::ScanResult scan = pipeline.process(viewOf(bytes, stamp)).scan;
+    const edgevox::ScanResult scan = pipeline.process(kitti::viewOf(bytes, stamp)).scan;
     ++counts[toString(scan.status)];
     if (scan.located()) {
       trajectory.push_back({scan.stamp, scan.T_map_sensor});

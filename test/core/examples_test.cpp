@@ -153,6 +153,28 @@ TEST_F(ExamplesTest, mapFolderGivesTheTrajectoryOfThisLibrary) {
   }
 }
 
+TEST_F(ExamplesTest, localizeFolderLocatesCloudsInTheMapItHasSaved) {
+  const fs::path clouds = *folder_ / "half";
+  fs::create_directory(clouds);
+  const test::Walk walk = walkThroughRoom(12);
+  for (size_t i = 0; i < walk.sweeps.size(); ++i) {
+    writeCloud(clouds / (std::string(1, static_cast<char>('a' + i)) + ".bin"), walk.sweeps[i]);
+  }
+  const fs::path map = *folder_ / "room.edgevox";
+  const fs::path file = *folder_ / "located.tum";
+  const Outcome outcome = execute(quoted(*folder_ / "examples" / "localize_folder") + " " +
+                                  quoted(clouds) + " " + quoted(map) + " " + quoted(file));
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  EXPECT_NE(std::string::npos, outcome.output.find("6 of 6 clouds located")) << outcome.output;
+  const Trajectory found = readTum(file);
+  ASSERT_EQ(6U, found.size());
+  for (size_t i = 0; i < found.size(); ++i) {
+    const auto error = test::differenceOf(walk.truth[2 * i + 1].pose, found[i].pose);
+    EXPECT_LT(error.metres, 0.02) << i;
+    EXPECT_LT(error.degrees, 0.3) << i;
+  }
+}
+
 TEST_F(ExamplesTest, mapFolderRefusesWhatIsNoCloud) {
   const fs::path clouds = *folder_ / "bad";
   expectRefused(clouds, "bad");

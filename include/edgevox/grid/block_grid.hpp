@@ -254,7 +254,8 @@ class BitGrid {
   static void archive(Self& self, Archive& bytes) {
     bytes(self.table_);
     if constexpr (Archive::kReads) self.makeBlocks();
-    for (size_t slot = 0; slot < self.used_; ++slot) Pool<Block>::archiveElement(self.blocks_, slot, bytes);
+    for (size_t slot = 0; slot < self.used_; ++slot)
+      Pool<Block>::archiveElement(self.blocks_, slot, bytes);
   }
 
  private:

@@ -347,7 +347,7 @@ TEST(Match, BesideTheGridIsNone) {
 TEST(Refinement, EndsWhereItLeavesTheGrid) {
   const MappedRoom& room = mappedRoom();
   const double limit = kIndexLimit * room.config.voxel_size;
-  MapBuilder builder(room.config.voxel_size, 3.2, room.config.map, room.config.edges, 1);
+  MapBuilder builder(room.config.voxel_size, room.config.map, room.config.edges, 1);
   std::vector<Vector3d> wall;  // at the limit
   for (int i = 0; i < 400; ++i) wall.emplace_back(limit - 0.25, 0.05 * (i / 20), 0.05 * (i % 20));
   for (int i = 0; i < 3; ++i) builder.insert(wall, {0, 0, 0});
