@@ -32,7 +32,7 @@ if(CATKIN_ENABLE_TESTING)
       catkin_add_gtest(${test_target} ${test_source})
       target_compile_options(${test_target} PRIVATE -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
       target_link_libraries(${test_target}
-        ${PROJECT_NAME}_test_support ${PROJECT_NAME}_sim ${gtest_main})
+        ${PROJECT_NAME}_test_support ${PROJECT_NAME}_sim OpenSSL::Crypto ${gtest_main})
       if(folder MATCHES "evaluation|run|tools")
         target_include_directories(${test_target} SYSTEM PRIVATE ${outer_include_dirs})
         target_link_libraries(${test_target} ${PROJECT_NAME}_tools)

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "core/compression.hpp"
@@ -90,11 +90,14 @@ void archiveHead(Head& head, Archive& bytes) {
 }
 
 std::string contentOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  std::string bytes(error ? 0 : size, '\0');
   std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in) {
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (error || !in) {
     throw FileError("cannot read the map '" + file.string() +
-                    "': check that it exists and may be read");
+                    "': check that it is a file and may be read");
   }
   return bytes;
 }
