@@ -11,7 +11,7 @@
 
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/scan/motion.hpp"
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 #include "sim/scanner.hpp"
 #include "sim/worlds.hpp"
 #include "tools/bag_reader.hpp"

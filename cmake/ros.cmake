@@ -14,23 +14,30 @@ target_include_directories(${PROJECT_NAME}_run SYSTEM PRIVATE ${PCL_INCLUDE_DIRS
 target_link_libraries(${PROJECT_NAME}_run PUBLIC
   ${PROJECT_NAME}_core pcl_common pcl_io OpenSSL::Crypto)
 
-add_library(${PROJECT_NAME}_ros STATIC ${EDGEVOX_ROS_SOURCES})
-set_target_properties(${PROJECT_NAME}_ros PROPERTIES POSITION_INDEPENDENT_CODE ON)
-target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
-target_include_directories(${PROJECT_NAME}_ros SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_core ${catkin_LIBRARIES})
-add_dependencies(${PROJECT_NAME}_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+# Conversions need no master; what is live takes part in one.
+add_library(${PROJECT_NAME}_conversions STATIC ${EDGEVOX_CONVERSION_SOURCES})
+set_target_properties(${PROJECT_NAME}_conversions PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_include_directories(${PROJECT_NAME}_conversions PUBLIC src)
+target_include_directories(${PROJECT_NAME}_conversions SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(${PROJECT_NAME}_conversions PUBLIC ${PROJECT_NAME}_core ${catkin_LIBRARIES})
+add_dependencies(${PROJECT_NAME}_conversions
+  ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+
+add_library(${PROJECT_NAME}_live STATIC ${EDGEVOX_LIVE_SOURCES})
+set_target_properties(${PROJECT_NAME}_live PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_include_directories(${PROJECT_NAME}_live SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(${PROJECT_NAME}_live PUBLIC ${PROJECT_NAME}_conversions)
 
 add_library(${PROJECT_NAME}_nodelets SHARED ${EDGEVOX_NODE_SOURCES})
 target_include_directories(${PROJECT_NAME}_nodelets SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${PROJECT_NAME}_ros ${PROJECT_NAME}_run)
+target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${PROJECT_NAME}_live ${PROJECT_NAME}_run)
 target_link_options(${PROJECT_NAME}_nodelets PRIVATE -Wl,--no-undefined)
 add_dependencies(${PROJECT_NAME}_nodelets ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_library(${PROJECT_NAME}_tools STATIC ${EDGEVOX_TOOLS_SOURCES})
 target_include_directories(${PROJECT_NAME}_tools SYSTEM PRIVATE ${outer_include_dirs})
 target_link_libraries(${PROJECT_NAME}_tools PUBLIC
-  ${PROJECT_NAME}_ros ${PROJECT_NAME}_run ${YAML_CPP_LIBRARIES} Boost::program_options)
+  ${PROJECT_NAME}_conversions ${PROJECT_NAME}_run ${YAML_CPP_LIBRARIES} Boost::program_options)
 
 if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})

@@ -62,7 +62,7 @@ if(CATKIN_ENABLE_TESTING)
     target_compile_options(${test_target} PRIVATE -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
     target_include_directories(${test_target} SYSTEM PRIVATE ${outer_include_dirs})
     target_link_libraries(${test_target}
-      ${PROJECT_NAME}_test_support ${PROJECT_NAME}_tools ${gtest_main})
+      ${PROJECT_NAME}_test_support ${PROJECT_NAME}_live ${PROJECT_NAME}_tools ${gtest_main})
     add_dependencies(${test_target} ${PROJECT_NAME}_nodelets)
   endforeach()
   roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)

@@ -6,7 +6,7 @@
 
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/mapping/pipeline.hpp"
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 #include "tools/bag_reader.hpp"
 
 namespace edgevox {

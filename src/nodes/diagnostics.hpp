@@ -8,8 +8,8 @@
 #include <string>
 
 #include "nodes/rolling_times.hpp"
-#include "ros/input_monitor.hpp"
-#include "ros/transform_input.hpp"
+#include "ros/live/input_monitor.hpp"
+#include "ros/live/transform_input.hpp"
 
 namespace edgevox {
 

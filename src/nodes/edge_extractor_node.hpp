@@ -14,10 +14,10 @@
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "nodes/diagnostics.hpp"
-#include "ros/parameters.hpp"
-#include "ros/scan_input.hpp"
-#include "ros/scan_refusal.hpp"
-#include "ros/throttled_log.hpp"
+#include "ros/conversions/scan_refusal.hpp"
+#include "ros/live/parameters.hpp"
+#include "ros/live/scan_input.hpp"
+#include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
 

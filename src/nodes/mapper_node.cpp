@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "nodes/save_run.hpp"
-#include "ros/map_messages.hpp"
-#include "ros/voxel_scan_message.hpp"
+#include "ros/conversions/map_messages.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 
 namespace edgevox {
 namespace {

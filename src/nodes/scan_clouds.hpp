@@ -4,7 +4,7 @@
 #include <edgevox/VoxelScanStamped.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include "ros/map_messages.hpp"
+#include "ros/conversions/map_messages.hpp"
 
 namespace edgevox {
 

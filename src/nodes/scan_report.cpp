@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ros/stamp.hpp"
+#include "ros/conversions/stamp.hpp"
 
 namespace edgevox {
 namespace {

@@ -9,7 +9,7 @@
 #include "edgevox/mapping/mapper.hpp"
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/stage_times.hpp"
-#include "ros/scan_transforms.hpp"
+#include "ros/conversions/scan_transforms.hpp"
 
 namespace edgevox {
 

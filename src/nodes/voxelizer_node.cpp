@@ -5,7 +5,7 @@
 
 #include "edgevox/stage_timer.hpp"
 #include "nodes/scan_clouds.hpp"
-#include "ros/voxel_scan_message.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 
 namespace edgevox {
 

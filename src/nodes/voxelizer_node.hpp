@@ -12,10 +12,10 @@
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/scan/voxelizer.hpp"
 #include "nodes/diagnostics.hpp"
-#include "ros/parameters.hpp"
-#include "ros/point_cloud.hpp"
-#include "ros/scan_input.hpp"
-#include "ros/throttled_log.hpp"
+#include "ros/conversions/point_cloud.hpp"
+#include "ros/live/parameters.hpp"
+#include "ros/live/scan_input.hpp"
+#include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/checked_transforms.hpp"
+#include "ros/conversions/checked_transforms.hpp"
 #include "tools/bag_chunks.hpp"
 #include "tools/bag_file.hpp"
 #include "tools/bag_index.hpp"

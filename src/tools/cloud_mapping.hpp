@@ -5,8 +5,8 @@
 #include <string>
 
 #include "edgevox/mapping/pipeline.hpp"
-#include "ros/point_cloud.hpp"
-#include "ros/scan_transforms.hpp"
+#include "ros/conversions/point_cloud.hpp"
+#include "ros/conversions/scan_transforms.hpp"
 #include "run/run_record.hpp"
 #include "tools/bag_reader.hpp"
 #include "tools/console.hpp"

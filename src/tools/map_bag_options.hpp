@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 #include "tools/options.hpp"
 
 namespace edgevox {

@@ -6,8 +6,8 @@
 #include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
 #include "nodelet_fixture.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/simulated_scans.hpp"
-#include "ros/voxel_scan_message.hpp"
 
 namespace edgevox::test {
 namespace {

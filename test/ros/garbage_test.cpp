@@ -3,11 +3,11 @@
 #include <functional>
 #include <limits>
 
-#include "ros/checked_transforms.hpp"
+#include "ros/conversions/checked_transforms.hpp"
+#include "ros/conversions/pose_messages.hpp"
+#include "ros/conversions/scan_transforms.hpp"
+#include "ros/conversions/stamp.hpp"
 #include "ros/mapper_fixture.hpp"
-#include "ros/pose_messages.hpp"
-#include "ros/scan_transforms.hpp"
-#include "ros/stamp.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -15,8 +15,8 @@
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "nodelet_fixture.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/simulated_scans.hpp"
-#include "ros/voxel_scan_message.hpp"
 #include "support/sweeps.hpp"
 
 namespace edgevox::test {

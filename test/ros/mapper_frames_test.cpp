@@ -2,8 +2,8 @@
 // edgevox/Mapper without odometry: the base frame, and what TF may hold instead of what it should.
 #include <tf2/buffer_core.h>
 
+#include "ros/conversions/pose_messages.hpp"
 #include "ros/mapper_fixture.hpp"
-#include "ros/pose_messages.hpp"
 
 namespace edgevox::test {
 namespace {

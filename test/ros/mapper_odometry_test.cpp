@@ -2,9 +2,9 @@
 // edgevox/Mapper with an odometry frame: predictions from TF, and map -> odom on TF.
 #include <tf2/buffer_core.h>
 
+#include "ros/conversions/pose_messages.hpp"
+#include "ros/conversions/scan_transforms.hpp"
 #include "ros/mapper_fixture.hpp"
-#include "ros/pose_messages.hpp"
-#include "ros/scan_transforms.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "launch_graph.hpp"
 #include "launch_process.hpp"
 #include "readme_table.hpp"
-#include "ros/parameters.hpp"
+#include "ros/live/parameters.hpp"
 #include "support/temp_folder.hpp"
 #include "tools/map_bag_fixture.hpp"
 

@@ -14,7 +14,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/scan/voxelizer.hpp"
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 #include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {

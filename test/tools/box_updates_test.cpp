@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a display shows that is sent only the blocks that have changed.
-#include "ros/box_updates.hpp"
+#include "ros/conversions/box_updates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/checked_transforms.hpp"
+#include "ros/conversions/checked_transforms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/map_messages.hpp"
+#include "ros/conversions/map_messages.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 
 namespace edgevox {
 namespace {

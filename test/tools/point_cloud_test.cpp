@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/pose_messages.hpp"
+#include "ros/conversions/pose_messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/voxel_scan_message.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/parameters.hpp"
+#include "ros/live/parameters.hpp"
 
 #include <ros/console.h>
 #include <ros/param.h>

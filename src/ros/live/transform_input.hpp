@@ -13,8 +13,8 @@
 #include <string>
 #include <thread>
 
-#include "ros/checked_transforms.hpp"
-#include "ros/throttled_log.hpp"
+#include "ros/conversions/checked_transforms.hpp"
+#include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/input_monitor.hpp"
+#include "ros/live/input_monitor.hpp"
 
 #include <cmath>
 

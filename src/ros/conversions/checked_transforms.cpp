@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/checked_transforms.hpp"
+#include "ros/conversions/checked_transforms.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include "edgevox/io/number_text.hpp"
-#include "ros/sensor_frames.hpp"
-#include "ros/stamp.hpp"
+#include "ros/conversions/sensor_frames.hpp"
+#include "ros/conversions/stamp.hpp"
 
 namespace edgevox {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 
 namespace edgevox {
 

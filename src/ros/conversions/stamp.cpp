@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/stamp.hpp"
+#include "ros/conversions/stamp.hpp"
 
 #include <limits>
 

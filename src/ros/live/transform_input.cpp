@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/transform_input.hpp"
+#include "ros/live/transform_input.hpp"
 
 #include <ros/console.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/pose_publisher.hpp"
+#include "ros/live/pose_publisher.hpp"
 
 #include <nav_msgs/Odometry.h>
 
 #include <utility>
 
-#include "ros/pose_messages.hpp"
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/pose_messages.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 
 namespace edgevox {
 namespace {

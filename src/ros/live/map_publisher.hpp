@@ -11,7 +11,7 @@
 #include <string>
 
 #include "edgevox/map/map_builder.hpp"
-#include "ros/box_updates.hpp"
+#include "ros/conversions/box_updates.hpp"
 
 namespace edgevox {
 

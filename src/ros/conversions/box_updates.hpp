@@ -9,7 +9,7 @@
 #include <map>
 
 #include "edgevox/grid/block_grid.hpp"
-#include "ros/map_messages.hpp"
+#include "ros/conversions/map_messages.hpp"
 
 namespace edgevox {
 

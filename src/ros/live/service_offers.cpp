@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/service_offers.hpp"
+#include "ros/live/service_offers.hpp"
 
 #include <ros/console.h>
 #include <ros/service_manager.h>

@@ -13,8 +13,8 @@
 #include <thread>
 #include <utility>
 
-#include "ros/input_monitor.hpp"
-#include "ros/throttled_log.hpp"
+#include "ros/live/input_monitor.hpp"
+#include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/throttled_log.hpp"
+#include "ros/live/throttled_log.hpp"
 
 #include <ros/console.h>
 

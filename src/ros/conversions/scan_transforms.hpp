@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "edgevox/mapping/mapper.hpp"
-#include "ros/scan_refusal.hpp"
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/scan_refusal.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 
 namespace edgevox {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/voxel_scan_message.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "edgevox/scan/voxelizer.hpp"
 
-#include "ros/stamp.hpp"
+#include "ros/conversions/stamp.hpp"
 
 namespace edgevox {
 namespace {

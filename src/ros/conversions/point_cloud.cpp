@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/point_cloud.hpp"
+#include "ros/conversions/point_cloud.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-#include "ros/stamp.hpp"
+#include "ros/conversions/stamp.hpp"
 
 namespace edgevox {
 namespace {

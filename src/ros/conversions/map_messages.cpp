@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/map_messages.hpp"
+#include "ros/conversions/map_messages.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/scan_transforms.hpp"
+#include "ros/conversions/scan_transforms.hpp"
 
 namespace edgevox {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/sensor_frames.hpp"
+#include "ros/conversions/sensor_frames.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
 #include <tf2/exceptions.h>
 
 #include <utility>
 
-#include "ros/pose_messages.hpp"
+#include "ros/conversions/pose_messages.hpp"
 
 namespace edgevox {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/map_transform.hpp"
+#include "ros/live/map_transform.hpp"
 
 #include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <utility>
 
-#include "ros/pose_messages.hpp"
+#include "ros/conversions/pose_messages.hpp"
 
 namespace edgevox {
 namespace {

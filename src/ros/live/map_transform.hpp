@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "edgevox/mapping/mapper.hpp"
-#include "ros/checked_transforms.hpp"
-#include "ros/scan_transforms.hpp"
+#include "ros/conversions/checked_transforms.hpp"
+#include "ros/conversions/scan_transforms.hpp"
 
 namespace edgevox {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/box_updates.hpp"
+#include "ros/conversions/box_updates.hpp"
 
 #include <algorithm>
 #include <cstdlib>

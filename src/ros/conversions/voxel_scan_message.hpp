@@ -10,7 +10,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
-#include "ros/scan_refusal.hpp"
+#include "ros/conversions/scan_refusal.hpp"
 
 namespace edgevox {
 

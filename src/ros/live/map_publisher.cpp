@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/map_publisher.hpp"
+#include "ros/live/map_publisher.hpp"
 
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/Marker.h>
 
 #include <utility>
 
-#include "ros/map_messages.hpp"
+#include "ros/conversions/map_messages.hpp"
 
 namespace edgevox {
 namespace {
