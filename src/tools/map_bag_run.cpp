@@ -23,6 +23,15 @@ void requireWritable(const fs::path& folder) {
   const AtomicFile probe(folder / "trajectory.tum");
 }
 
+/// The files of a run replace those of the one before: the map's among them.
+void requireOtherFolder(const MapBagOptions& options) {
+  if (options.localize.empty()) return;
+  const fs::path folder = fs::weakly_canonical(fs::path(options.localize)).parent_path();
+  if (folder != fs::weakly_canonical(options.output)) return;
+  throw UsageError("the map '" + options.localize + "' lies in the output folder, whose files " +
+                   "will be replaced: choose another --output");
+}
+
 void readTransforms(BagReader& bag, CheckedTransforms& transforms, Console& console) {
   for (const auto& [reason, refused] : bag.readTransforms(transforms)) {
     console.print(refused.first + ". Of this kind: " + std::to_string(refused.count) + ".");
@@ -82,6 +91,7 @@ std::string lossOf(const BagReader& bag, const MapBagOptions& options) {
 }  // namespace
 
 MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
+  requireOtherFolder(options);
   const std::string map_file = options.map.empty() ? options.localize : options.map;
   std::optional<MapFile> map;
   if (!map_file.empty()) map = MapFile::read(map_file);
