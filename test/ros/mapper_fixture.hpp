@@ -185,9 +185,10 @@ class MapperTest : public NodeletTest {
     EXPECT_TRUE(ros::service::call(resolved(name), service)) << name;
     return service.response;
   }
-  SaveMap::Response save(const std::string& folder) {
+  SaveMap::Response save(const std::string& folder, bool full = false) {
     SaveMap service;
     service.request.folder = folder;
+    service.request.full = static_cast<uint8_t>(full);
     return call("save_map", service);
   }
 

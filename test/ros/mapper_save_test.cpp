@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "edgevox/io/map_file.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "ros/mapper_fixture.hpp"
 #include "support/temp_folder.hpp"
@@ -133,6 +134,27 @@ TEST_F(SaveTest, InTheMiddleDoesNotChangeTheTrajectory) {
   ASSERT_TRUE(save(folder_.path().string()).success);
   expectOdometry(walkPoses());
   expectTrajectory(folder_ / "trajectory.tum");
+}
+
+TEST_F(SaveTest, AFullMapGoesOnAsTheMapperDoes) {
+  setParameter("mapper", "map_frame", std::string("world"));
+  start();
+  map(firstScans(kMiddle));
+  ASSERT_TRUE(save((folder_ / "compact").string()).success);
+  ASSERT_TRUE(save((folder_ / "full").string(), true).success);
+  EXPECT_EQ(MapContent::kCompact, MapFile::read(folder_ / "compact/map.edgevox").head().content);
+  const MapFile file = MapFile::read(folder_ / "full/map.edgevox");
+  EXPECT_EQ("world", file.head().map_frame);
+  ASSERT_EQ(MapContent::kFull, file.head().content);
+  Mapper resumed(file.config());
+  file.restore(resumed);
+  Mapper whole{Config{}};
+  for (size_t i = 0; i < scans().size(); ++i) {
+    const ScanResult expected = whole.process(fromMessage(scans()[i]));
+    if (i < kMiddle) continue;
+    const ScanResult found = resumed.process(fromMessage(scans()[i]));
+    EXPECT_TRUE(sameBits(expected.T_map_sensor, found.T_map_sensor)) << i;
+  }
 }
 
 TEST_F(SaveTest, SaysWhatIsWrongWithAFolder) {
