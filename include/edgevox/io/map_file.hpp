@@ -38,6 +38,9 @@ struct MapFileError : std::runtime_error {
 /// The content of a file of either kind. Labels must be up to date in a compact one.
 std::string mapFileBytes(MapContent content, const Mapper& mapper, const Config& config,
                          const std::string& map_frame);
+/// The content of a compact file of a complete map that was built from so many scans.
+std::string mapFileBytes(const MatchMap& map, const Config& config, const std::string& map_frame,
+                         uint64_t scans);
 
 /// A map file in memory, its checksum verified.
 class MapFile {
@@ -50,19 +53,25 @@ class MapFile {
   const MapFileHead& head() const { return head_; }
   /// The configuration that the map was built with.
   const Config& config() const { return config_; }
-  /// What scans are matched to, of either content. Throws MapFileError.
+  uint32_t version() const { return version_; }
+  /// What scans are matched to, complete and with its labels up to date, of either content. Throws
+  /// MapFileError.
   MatchMap matchMap() const;
   /// Puts the mapper in the state that was saved; its Config must have the map's parameters, see
   /// requireSameMap(). Throws MapFileError if the content is not full.
   void restore(Mapper& mapper) const;
   /// Throws ConfigError that names the first parameter of map, edges or voxel size which differs.
   void requireSameMap(const Config& config) const;
+  /// Throws ConfigError that names the first such parameter, or the frame, in which two maps
+  /// differ.
+  void requireSameMap(const MapFile& other) const;
 
  private:
   template <typename Read>
   auto reading(const Read& read) const;
 
   std::string name_;
+  uint32_t version_ = 0;
   MapFileHead head_;
   Config config_;
   std::string body_;  // one zstd frame if full

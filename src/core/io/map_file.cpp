@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -102,8 +103,8 @@ std::string contentOf(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// Throws ArchiveError.
-void check(const std::string& bytes) {
+/// The version of a file that is whole. Throws ArchiveError.
+uint32_t check(const std::string& bytes) {
   if (bytes.size() < Start::kBytes ||
       !std::equal(kMagic.begin(), kMagic.end(), bytes.begin(),
                   [](uint8_t a, char b) { return a == static_cast<uint8_t>(b); })) {
@@ -125,6 +126,38 @@ void check(const std::string& bytes) {
   if (digestOf(bytes, Start::kBytes) != start.digest) {
     throw ArchiveError("it is damaged: its content does not fit to its checksum");
   }
+  return start.version;
+}
+
+std::string fileBytes(const MapFileHead& head, const std::string& body) {
+  ArchiveWriter rest;
+  archiveHead(head, rest);
+  rest(body);
+  Start start;
+  start.size = rest.bytes().size();
+  start.digest = digestOf(rest.bytes(), 0);
+  ArchiveWriter file;
+  file(start);
+  return file.take() + rest.take();
+}
+
+/// A parameter of the map with two values.
+struct Difference {
+  std::string name;
+  std::string first;
+  std::string second;
+};
+
+/// The first one in which they differ.
+std::optional<Difference> differenceOf(Config a, Config b) {
+  const std::vector<Parameter> first = parametersOf(a);
+  const std::vector<Parameter> second = parametersOf(b);
+  for (size_t i = 0; i < first.size(); ++i) {
+    if (!shapesMap(first[i]) || mayDiffer(first[i])) continue;
+    const Difference values{first[i].name, valueText(first[i]), valueText(second[i])};
+    if (values.first != values.second) return values;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -142,18 +175,23 @@ std::string mapFileBytes(MapContent content, const Mapper& mapper, const Config&
                          map.hitVoxels().voxelCount(),
                          map.edgeVoxels().voxelCount(),
                          parametersText(config)};
+  if (content == MapContent::kCompact) {
+    return fileBytes(head, encoded(map.completeMap(), config.map.representation));
+  }
   ArchiveWriter body;
-  if (content == MapContent::kFull) body(mapper);
-  ArchiveWriter rest;
-  archiveHead(head, rest);
-  rest(content == MapContent::kFull ? compressed(body.bytes())
-                                    : encoded(map.completeMap(), config.map.representation));
-  Start start;
-  start.size = rest.bytes().size();
-  start.digest = digestOf(rest.bytes(), 0);
-  ArchiveWriter file;
-  file(start);
-  return file.take() + rest.take();
+  body(mapper);
+  return fileBytes(head, compressed(body.bytes()));
+}
+
+std::string mapFileBytes(const MatchMap& map, const Config& config, const std::string& map_frame,
+                         uint64_t scans) {
+  const MapFileHead head{MapContent::kCompact,
+                         map_frame,
+                         scans,
+                         map.hitVoxels().voxelCount(),
+                         map.edgeVoxels().voxelCount(),
+                         parametersText(config)};
+  return fileBytes(head, encoded(map, config.map.representation));
 }
 
 /// Errors get the name of the file.
@@ -177,7 +215,7 @@ MapFile MapFile::read(const std::filesystem::path& file) {
 
 MapFile::MapFile(std::string bytes, std::string name) : name_(std::move(name)) {
   reading([&] {
-    check(bytes);
+    version_ = check(bytes);
     bytes.erase(0, Start::kBytes);
     ArchiveReader reader(bytes);
     archiveHead(head_, reader);
@@ -195,6 +233,7 @@ MatchMap MapFile::matchMap() const {
     if (head_.content == MapContent::kCompact) return decoded(body_, config_);
     Mapper mapper(config_);
     restore(mapper);
+    mapper.finishLabels();
     return mapper.map().completeMap();
   });
 }
@@ -214,18 +253,23 @@ void MapFile::restore(Mapper& mapper) const {
 }
 
 void MapFile::requireSameMap(const Config& config) const {
-  Config of_file = config_;
-  Config asked = config;
-  const std::vector<Parameter> saved = parametersOf(of_file);
-  const std::vector<Parameter> wanted = parametersOf(asked);
-  for (size_t i = 0; i < saved.size(); ++i) {
-    if (!shapesMap(saved[i]) || mayDiffer(saved[i])) continue;
-    const std::string before = valueText(saved[i]);
-    const std::string now = valueText(wanted[i]);
-    if (before == now) continue;
-    throw ConfigError("the map '" + name_ + "' was built with " + saved[i].name + " = " + before +
-                      ", which is " + now + " now: set it to " + before + ", or begin a new map");
+  const auto values = differenceOf(config_, config);
+  if (!values) return;
+  throw ConfigError("the map '" + name_ + "' was built with " + values->name + " = " +
+                    values->first + ", which is " + values->second + " now: set it to " +
+                    values->first + ", or begin a new map");
+}
+
+void MapFile::requireSameMap(const MapFile& other) const {
+  const std::string names = "the maps '" + name_ + "' and '" + other.name_ + "'";
+  if (head_.map_frame != other.head_.map_frame) {
+    throw ConfigError(names + " are in different frames, '" + head_.map_frame + "' and '" +
+                      other.head_.map_frame + "': build them in one frame");
   }
+  const auto values = differenceOf(config_, other.config_);
+  if (!values) return;
+  throw ConfigError(names + " were built with different " + values->name + ", " + values->first +
+                    " and " + values->second + ": build them with the same");
 }
 
 }  // namespace edgevox
