@@ -17,6 +17,7 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs
 )
 find_package(Boost REQUIRED COMPONENTS program_options)
+find_package(octomap REQUIRED)
 find_package(PCL REQUIRED COMPONENTS common io octree)
 find_package(yaml-cpp REQUIRED)
 

@@ -35,9 +35,11 @@ target_link_options(${PROJECT_NAME}_nodelets PRIVATE -Wl,--no-undefined)
 add_dependencies(${PROJECT_NAME}_nodelets ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_library(${PROJECT_NAME}_tools STATIC ${EDGEVOX_TOOLS_SOURCES})
-target_include_directories(${PROJECT_NAME}_tools SYSTEM PRIVATE ${outer_include_dirs})
+target_include_directories(${PROJECT_NAME}_tools SYSTEM PRIVATE
+  ${outer_include_dirs} ${OCTOMAP_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_tools PUBLIC
-  ${PROJECT_NAME}_conversions ${PROJECT_NAME}_run ${YAML_CPP_LIBRARIES} Boost::program_options)
+  ${PROJECT_NAME}_conversions ${PROJECT_NAME}_run ${YAML_CPP_LIBRARIES} ${OCTOMAP_LIBRARIES}
+  Boost::program_options)
 
 if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})
@@ -54,6 +56,7 @@ function(edgevox_add_tool tool)
   target_link_libraries(${PROJECT_NAME}_${tool} PRIVATE -Wl,--as-needed ${ARGN})
   install(TARGETS ${PROJECT_NAME}_${tool} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
+edgevox_add_tool(map ${PROJECT_NAME}_tools)
 edgevox_add_tool(map_bag ${PROJECT_NAME}_tools)
 if(EDGEVOX_BUILD_SIMULATION)
   edgevox_add_tool(simulate ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim)
@@ -73,5 +76,6 @@ install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION
 install(DIRECTORY ${share_folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 # The other scripts work on the checkout and stay in it.
 #catkin_lint: ignore uninstalled_script
-install(PROGRAMS scripts/play_bag scripts/plot_edges scripts/plot_maps scripts/plot_run
+install(PROGRAMS scripts/play_bag scripts/plot_edges scripts/plot_map scripts/plot_maps
+  scripts/plot_run
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

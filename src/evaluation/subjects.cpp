@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "edgevox/io/atomic_file.hpp"
-#include "evaluation/plot.hpp"
 #include "tools/config_file.hpp"
+#include "tools/plot.hpp"
 
 namespace edgevox {
 

@@ -35,8 +35,14 @@ po::options_description withHelp(const std::string& usage) {
 std::optional<po::variables_map> parseOptions(const Arguments& arguments,
                                               const po::options_description& known,
                                               const char* positional) {
+  return parseOptions(arguments, known, positional == nullptr ? Texts() : Texts{positional});
+}
+
+std::optional<po::variables_map> parseOptions(const Arguments& arguments,
+                                              const po::options_description& known,
+                                              const Texts& positional) {
   po::positional_options_description position;
-  if (positional != nullptr) position.add(positional, 1);
+  for (const std::string& name : positional) position.add(name.c_str(), 1);
   namespace style = po::command_line_style;
   po::variables_map given;
   try {

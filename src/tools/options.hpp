@@ -35,6 +35,10 @@ boost::program_options::options_description withHelp(const std::string& usage);
 std::optional<boost::program_options::variables_map> parseOptions(
     const Arguments& arguments, const boost::program_options::options_description& known,
     const char* positional = nullptr);
+/// The same with several arguments that need no name, in this order.
+std::optional<boost::program_options::variables_map> parseOptions(
+    const Arguments& arguments, const boost::program_options::options_description& known,
+    const std::vector<std::string>& positional);
 
 /// Values of options declared as std::string, as a list of them and as double; empty if the option
 /// is not given.

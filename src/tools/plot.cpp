@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/plot.hpp"
+#include "tools/plot.hpp"
 
 #include <spawn.h>
 #include <sys/wait.h>
