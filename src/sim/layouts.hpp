@@ -6,6 +6,7 @@
 #include "sim/movers.hpp"
 #include "sim/parts.hpp"
 #include "sim/trajectory.hpp"
+#include "sim/worlds.hpp"
 
 namespace edgevox::sim {
 
@@ -17,8 +18,9 @@ Solids layOutBuilding(std::uint64_t seed);
 Trajectory walkBuilding();
 Movers moveInBuilding(std::uint64_t seed);
 
-Solids layOutStreet(std::uint64_t seed);
-Trajectory driveStreet();
+// `length` of the loop.
+Solids layOutStreet(std::uint64_t seed, double length);
+Trajectory driveStreet(double length);
 
 Solids layOutCorridor(std::uint64_t seed);
 Trajectory walkCorridor();

@@ -11,24 +11,34 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The street's centre line is a rectangle around the origin; cars drive it counter-clockwise.
-constexpr double kHalfX = 75.0;    // m
-constexpr double kHalfY = 55.0;    // m
 constexpr double kRoadHalf = 4.6;  // m, centre to kerb
 constexpr double kFacade = 7.6;    // m, centre to façades
 constexpr double kKerb = 0.12;     // m
 constexpr double kPi = 3.14159265358979323846;
+
+// The street's centre line is a rectangle around the origin; cars drive it counter-clockwise. What
+// is longer than usual is longer on all four sides.
+struct Loop {
+  double half_x;  // m
+  double half_y;  // m
+
+  explicit Loop(double length)
+      : half_x(75.0 + (length - kStreetLength) / 8.0),
+        half_y(55.0 + (length - kStreetLength) / 8.0) {}
+};
 
 struct Side {
   Place start;    // a corner of the centre line, x along the street, y to the inner block
   double length;  // m, to the next corner
 };
 
-std::vector<Side> sides() {
-  return {{{-kHalfX, -kHalfY, 0.0, 0.0}, 2.0 * kHalfX},
-          {{kHalfX, -kHalfY, 0.0, 0.5 * kPi}, 2.0 * kHalfY},
-          {{kHalfX, kHalfY, 0.0, kPi}, 2.0 * kHalfX},
-          {{-kHalfX, kHalfY, 0.0, -0.5 * kPi}, 2.0 * kHalfY}};
+std::vector<Side> sidesOf(const Loop& loop) {
+  const double x = loop.half_x;
+  const double y = loop.half_y;
+  return {{{-x, -y, 0.0, 0.0}, 2.0 * x},
+          {{x, -y, 0.0, 0.5 * kPi}, 2.0 * y},
+          {{x, y, 0.0, kPi}, 2.0 * x},
+          {{-x, y, 0.0, -0.5 * kPi}, 2.0 * y}};
 }
 
 Place along(const Side& side, double x, double y, double turn = 0.0, double z = 0.0) {
@@ -36,13 +46,13 @@ Place along(const Side& side, double x, double y, double turn = 0.0, double z = 
   return {at.x(), at.y(), at.z(), side.start.heading + turn};
 }
 
-void addGround(Solids& solids) {
-  const double out_x = kHalfX + 45.0;
-  const double out_y = kHalfY + 45.0;
+void addGround(Solids& solids, const Loop& loop) {
+  const double out_x = loop.half_x + 45.0;
+  const double out_y = loop.half_y + 45.0;
   addBox(solids, {}, {-out_x, -out_y, -0.5}, {out_x, out_y, 0.0}, kAsphalt);
-  addBox(solids, {}, {kRoadHalf - kHalfX, kRoadHalf - kHalfY, -0.1},
-         {kHalfX - kRoadHalf, kHalfY - kRoadHalf, kKerb}, kConcrete);
-  for (const Side& side : sides()) {
+  addBox(solids, {}, {kRoadHalf - loop.half_x, kRoadHalf - loop.half_y, -0.1},
+         {loop.half_x - kRoadHalf, loop.half_y - kRoadHalf, kKerb}, kConcrete);
+  for (const Side& side : sidesOf(loop)) {
     addBox(solids, side.start, {-kRoadHalf, -40.0, -0.1},
            {side.length + kRoadHalf, -kRoadHalf, kKerb}, kConcrete);
   }
@@ -124,12 +134,13 @@ void addPoles(Solids& solids, const Side& side, Random& random) {
 
 }  // namespace
 
-Solids layOutStreet(std::uint64_t seed) {
+Solids layOutStreet(std::uint64_t seed, double length) {
+  const Loop loop(length);
   Solids solids;
   Random random(seed, 2);
-  addGround(solids);
-  for (const Side& side : sides()) {
-    const bool long_side = side.length > 2.0 * kHalfY;
+  addGround(solids, loop);
+  for (const Side& side : sidesOf(loop)) {
+    const bool long_side = side.length > 2.0 * loop.half_y;
     const double corner = long_side ? kFacade : kFacade + 14.0;
     addRow(solids, side, true, corner, side.length - corner, random);
     addRow(solids, side, false, kFacade - 20.0, side.length - kFacade - 3.0, random);
@@ -140,33 +151,36 @@ Solids layOutStreet(std::uint64_t seed) {
   return solids;
 }
 
-Trajectory driveStreet() {
+Trajectory driveStreet(double length) {
+  const Loop loop(length);
+  const double x = loop.half_x;
+  const double y = loop.half_y;
   const double z = kCarSensorHeight;
   const double corner = 5.0;  // m/s, into and out of corners, and at the ends
-  const double near_x = kHalfX - 12.0;
-  const double near_y = kHalfY - 12.0;
+  const double near_x = x - 12.0;
+  const double near_y = y - 12.0;
   Gait drive;
   drive.speed = 8.0;
   drive.smoothing = 1.2;
   drive.sway_position = 0.01;
   drive.sway_angle = 0.008;
   drive.sway_frequency = 1.3;
-  return Trajectory({{{-10.0, -kHalfY, z}},
-                     {{0.0, -kHalfY, z}, corner},
-                     {{near_x, -kHalfY, z}},
-                     {{kHalfX, -kHalfY, z}, corner},
-                     {{kHalfX, -near_y, z}, corner},
-                     {{kHalfX, near_y, z}},
-                     {{kHalfX, kHalfY, z}, corner},
-                     {{near_x, kHalfY, z}, corner},
-                     {{-near_x, kHalfY, z}},
-                     {{-kHalfX, kHalfY, z}, corner},
-                     {{-kHalfX, near_y, z}, corner},
-                     {{-kHalfX, -near_y, z}},
-                     {{-kHalfX, -kHalfY, z}, corner},
-                     {{-near_x, -kHalfY, z}, corner},
-                     {{-20.0, -kHalfY, z}},
-                     {{-10.0, -kHalfY, z}, corner}},
+  return Trajectory({{{-10.0, -y, z}},
+                     {{0.0, -y, z}, corner},
+                     {{near_x, -y, z}},
+                     {{x, -y, z}, corner},
+                     {{x, -near_y, z}, corner},
+                     {{x, near_y, z}},
+                     {{x, y, z}, corner},
+                     {{near_x, y, z}, corner},
+                     {{-near_x, y, z}},
+                     {{-x, y, z}, corner},
+                     {{-x, near_y, z}, corner},
+                     {{-x, -near_y, z}},
+                     {{-x, -y, z}, corner},
+                     {{-near_x, -y, z}, corner},
+                     {{-20.0, -y, z}},
+                     {{-10.0, -y, z}, corner}},
                     drive);
 }
 

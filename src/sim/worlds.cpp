@@ -16,12 +16,12 @@ WorldName parseWorldName(std::string_view name) {
                               "': building, street or corridor");
 }
 
-World makeWorld(WorldName name, std::uint64_t seed) {
+World makeWorld(WorldName name, std::uint64_t seed, double street_length) {
   switch (name) {
     case WorldName::Building:
       return World(layOutBuilding(seed));
     case WorldName::Street:
-      return World(layOutStreet(seed));
+      return World(layOutStreet(seed, street_length));
     case WorldName::Corridor:
       return World(layOutCorridor(seed));
   }
@@ -33,20 +33,20 @@ Movers makeMovers(WorldName name, std::uint64_t seed) {
   throw std::invalid_argument("things move in the building only");
 }
 
-Trajectory makeTrajectory(WorldName name) {
+Trajectory makeTrajectory(WorldName name, double street_length) {
   switch (name) {
     case WorldName::Building:
       return walkBuilding();
     case WorldName::Street:
-      return driveStreet();
+      return driveStreet(street_length);
     case WorldName::Corridor:
       return walkCorridor();
   }
   throw std::invalid_argument("unknown world");
 }
 
-Trajectory makeTrajectory(WorldName name, const Sensor& sensor) {
-  const Trajectory path = makeTrajectory(name);
+Trajectory makeTrajectory(WorldName name, const Sensor& sensor, double street_length) {
+  const Trajectory path = makeTrajectory(name, street_length);
   const int stations = name == WorldName::Corridor ? 8 : 12;
   return sensor.standing ? path.stations(stations, sensor.period) : path;
 }

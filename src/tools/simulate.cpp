@@ -52,7 +52,8 @@ struct Options {
   std::optional<double> duration;  // s
   std::optional<double> noise;     // m
   std::optional<double> dropout;
-  std::optional<double> rate;  // Hz
+  std::optional<double> rate;    // Hz
+  std::optional<double> length;  // m
 };
 
 void requireRange(const char* name, const std::optional<double>& value, double low, double high) {
@@ -64,8 +65,8 @@ void requireRange(const char* name, const std::optional<double>& value, double l
 po::options_description describeOptions() {
   po::options_description description = withHelp(
       "simulate: a lidar's sweeps through a made-up world\n"
-      "Building (76 s) and street (81.6 s) end as they begin: same place, same heading, at rest,\n"
-      "so that their bags can be played round after round.\n\n"
+      "Building (76 s) and street (81.6 s, longer with --length) end as they begin: same place,\n"
+      "same heading, at rest, so that their bags can be played round after round.\n\n"
       "Options");
   auto add = description.add_options();
   add("world", po::value<std::string>()->required(), "building, street or corridor");
@@ -75,6 +76,7 @@ po::options_description describeOptions() {
       "bag to write; the trajectory goes beside it as .tum");
   add("seed", po::value<std::int64_t>()->default_value(1), "0 or more; same seed, same bag");
   add("movers", "people walk about and boxes are taken away (building only)");
+  add("length", po::value<double>(), "m, of the loop of streets, 520 or more (street only)");
   add("duration", po::value<double>(), "s, stop after so long (default: the whole path)");
   add("noise", po::value<double>(), "m, standard deviation of the range (default: the sensor's)");
   add("dropout", po::value<double>(), "share of returns left out (default: the sensor's)");
@@ -93,10 +95,12 @@ std::optional<Options> optionsOf(const Arguments& arguments) {
   options.output = given["output"].as<std::string>();
   options.seed = countOf(given, "seed", 0);
   options.movers = given.count("movers") > 0;
+  options.length = numberOf(given, "length");
   options.duration = numberOf(given, "duration");
   options.noise = numberOf(given, "noise");
   options.dropout = numberOf(given, "dropout");
   options.rate = numberOf(given, "rate");
+  requireRange("length", options.length, kStreetLength, 1e5);
   requireRange("duration", options.duration, 0.0, 1e5);
   requireRange("noise", options.noise, 0.0, 1.0);
   requireRange("dropout", options.dropout, 0.0, 1.0);
@@ -233,7 +237,11 @@ struct Run {
 Run prepareRun(const Options& options) {
   const WorldName name = parseWorldName(options.world);
   const Sensor sensor = configureSensor(options);
-  Trajectory trajectory = makeTrajectory(name, sensor);
+  if (options.length && name != WorldName::Street) {
+    throw std::invalid_argument("--length is for the street only");
+  }
+  const double length = options.length.value_or(kStreetLength);
+  Trajectory trajectory = makeTrajectory(name, sensor, length);
   int sweeps = countSweeps(trajectory, sensor);
   if (options.duration) {
     sweeps =
@@ -241,7 +249,8 @@ Run prepareRun(const Options& options) {
   }
   if (sweeps < 1) throw UsageError("--duration is shorter than one sweep");
   Movers movers = options.movers ? makeMovers(name, options.seed) : Movers{};
-  return {makeWorld(name, options.seed), std::move(movers), sensor, std::move(trajectory), sweeps};
+  return {makeWorld(name, options.seed, length), std::move(movers), sensor, std::move(trajectory),
+          sweeps};
 }
 
 volatile std::sig_atomic_t interrupted = 0;

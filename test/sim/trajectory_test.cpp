@@ -141,6 +141,24 @@ TEST(Trajectory, PathsAreTheOnesThatWereMeasured) {
       at(corridor, 40.0).isApprox(Vector3d(33.616858407678, 2.445368324302, 1.412), kExact));
 }
 
+TEST(Trajectory, LongStreetIsDrivenOnceAround) {
+  constexpr double kLength = 1000.0;
+  const Trajectory path = makeTrajectory(WorldName::Street, kLength);
+  const World world = makeWorld(WorldName::Street, 3, kLength);
+  double way = 0.0;
+  Vector3d before = path.poseAt(0.0).translation();
+  for (double t = 0.5; t < path.duration(); t += 0.5) {
+    const Vector3d at = path.poseAt(t).translation();
+    way += (at - before).norm();
+    before = at;
+    ASSERT_GE(world.clearance(at, 0.5), 0.35) << t;
+  }
+  EXPECT_NEAR(way, kLength, 0.02 * kLength);
+  EXPECT_LT((before - path.poseAt(0.0).translation()).norm(), 0.1);
+  EXPECT_GT(world.solids().size(), 1.7 * makeWorld(WorldName::Street, 3).solids().size());
+  EXPECT_NEAR(world.bounds().max.x(), 75.0 + 60.0 + 45.0, 1e-9);
+}
+
 TEST(Trajectory, BuildingPathClimbsToTheUpperStorey) {
   const Trajectory path = makeTrajectory(WorldName::Building);
   const double height = sensorHeight(WorldName::Building);
