@@ -89,9 +89,9 @@ const MapBuilder& street(size_t voxels) {
   const auto known = made.find(voxels);
   if (known != made.end()) return known->second;
   MapBuilder map(kVoxelSize, {}, {}, 1);
-  for (int tile = 0; map.hitVoxels().voxelCount() < voxels; ++tile) {
+  for (int tile = 0; map.hitVoxelCount() < voxels; ++tile) {
     std::vector<Eigen::Vector3d> centres = streetTile(tile, kVoxelSize);
-    centres.resize(std::min(centres.size(), voxels - map.hitVoxels().voxelCount()));
+    centres.resize(std::min(centres.size(), voxels - map.hitVoxelCount()));
     for (int hit = 0; hit < MapConfig{}.min_hits; ++hit) {
       map.add(centres, streetSensor(tile, kVoxelSize));
     }
@@ -109,13 +109,13 @@ void timeOnStreet(State& state, size_t voxels, const Before& before, const Step&
     state.PauseTiming();
     MapBuilder map = base;
     for (size_t i = 0; i < kWalkScans; ++i) {
-      const size_t known = map.hitVoxels().voxelCount();
+      const size_t known = map.hitVoxelCount();
       const bool timed = i >= kWalkScans / 2;
       before(map, walk()[i]);
       if (timed) state.ResumeTiming();
       step(map, walk()[i]);
       if (timed) state.PauseTiming();
-      if (timed) changed += map.hitVoxels().voxelCount() - known;
+      if (timed) changed += map.hitVoxelCount() - known;
     }
     state.counters["map_MB"] = static_cast<double>(map.bytes()) * 1e-6;
     { const MapBuilder freed = std::move(map); }

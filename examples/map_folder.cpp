@@ -59,7 +59,7 @@ void run(const fs::path& folder, const fs::path& output, double voxel_size, doub
 
   std::cout << files.size() << " clouds:";
   for (const auto& [status, count] : counts) std::cout << " " << count << " " << status;
-  std::cout << "\nmap: " << pipeline.map().hitVoxels().voxelCount() << " occupied voxels, "
+  std::cout << "\nmap: " << pipeline.map().hitVoxelCount() << " occupied voxels, "
             << pipeline.map().edgeVoxels().voxelCount() << " of them edges\n";
   if (const auto warning = pipeline.densityMonitor().warning()) {
     std::cout << textOf(*warning) << "\n";

@@ -59,6 +59,9 @@ struct MapConfig {
   int clear_after = 0;  ///< scans that see through a voxel unhit before it leaves, 0: off
   /// Scans within which a voxel that stands alone must be hit again to enter the map, 0: off
   int confirm_within = 10;
+  /// Scans after which places out of reach of the sensor keep no more than what matching needs,
+  /// 0: never
+  int freeze_after = 50;
   int memory = 4000;  ///< of the map while mapping, after which no voxels are added [MB]
 };
 

@@ -70,9 +70,13 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"map/confirm_within", &c.map.confirm_within, 0, 1000, "",
        "scans within which a point that stands alone must be hit again to enter the map; 0: all "
        "enter at once"},
+      {"map/freeze_after", &c.map.freeze_after, 0, kMaxCount, "",
+       "scans after which places farther than voxelizer/max_range that no scan has touched keep no "
+       "more than what scans are aligned to, until the sensor comes back; 0: never"},
       {"map/memory", &c.map.memory, 1, kMaxCount, "MB",
-       "of the map while mapping; when it is reached, known voxels are kept up to date and no new "
-       "ones are added"},
+       "of the map while mapping; when it is reached, the farthest places freeze as by "
+       "map/freeze_after; if that does not help, known voxels are kept up to date and no new ones "
+       "are added"},
       {"matcher/mode", choiceOf(c.matcher.mode, {"refined", "published"}), 0, 0, "",
        "'published' is hill climbing alone, for comparison"},
       {"matcher/search_points", &c.matcher.search_points, 50, kMaxCount, "",

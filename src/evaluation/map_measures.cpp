@@ -165,7 +165,7 @@ class MapTable {
     if (table_.rows() == 1) all_bytes_ = bytes;
     table_.set("map_mb", bytes / 1e6);
     table_.set("smaller", all_bytes_ / bytes);
-    table_.set("compression", static_cast<double>(map.hitVoxels().voxelCount()) /
+    table_.set("compression", static_cast<double>(map.hitVoxelCount()) /
                                   static_cast<double>(map.edgeVoxels().voxelCount()));
   }
 

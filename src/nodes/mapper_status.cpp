@@ -60,8 +60,10 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("matches", last_.matches);
   status.add("restarts", last_.restarts);
   status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
-  status.add("occupied voxels of the map", map.hitVoxels().voxelCount());
+  status.add("occupied voxels of the map", map.hitVoxelCount());
   status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
+  status.add("frozen voxels of the map", map.frozenVoxels());
+  status.add("frozen regions of the map", map.frozenRegions());
   status.add("centroids alone, left out", map.loneCentroids());
   status.add("centroids past map/memory, left out", map.centroidsPastMemory());
   status.add("clouds refused before", last_.refused);

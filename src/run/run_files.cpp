@@ -110,12 +110,15 @@ double peakMegabytes() {
 }
 
 void addMap(const MapBuilder& map, size_t map_bytes, Report& report) {
-  const uint64_t occupied = map.hitVoxels().voxelCount();
+  const uint64_t occupied = map.hitVoxelCount();
   const uint64_t edges = map.edgeVoxels().voxelCount();
   report.add("occupied_voxels", occupied);
   report.add("edge_voxels", edges);
   report.add("compression", static_cast<double>(occupied) / static_cast<double>(edges));
   report.add("cleared_voxels", uint64_t{map.clearedVoxels()});
+  report.add("frozen_regions", uint64_t{map.frozenRegions()});
+  report.add("frozen_voxels", uint64_t{map.frozenVoxels()});
+  report.add("thawed_regions", uint64_t{map.thawedRegions()});
   report.add("lone_centroids", uint64_t{map.loneCentroids()});
   report.add("centroids_past_memory", uint64_t{map.centroidsPastMemory()});
   report.add("map_bytes", uint64_t{map_bytes});

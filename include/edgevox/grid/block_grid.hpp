@@ -20,11 +20,13 @@ namespace edgevox {
 uint64_t hashSecret();
 
 /// Open-addressing hash from a block's index to its slot; slots are 0, 1, 2, ... in order of
-/// insertion, so that the order of iteration depends on the input alone, not on the hash. A search
-/// looks at no more than kMaxProbes buckets beside the first.
+/// insertion, but that of the block erased last is used first, so that the order of iteration
+/// depends on the input alone, not on the hash. A search looks at no more than kMaxProbes buckets
+/// beside the first.
 class BlockTable {
  public:
   static constexpr int32_t kNone = -1;
+  static constexpr VoxelIndex kErased{1 << 25, 1 << 25, 1 << 25};  ///< outside of every grid
 
   explicit BlockTable(uint64_t seed = hashSecret()) : seed_(seed), buckets_(kMinBuckets, kNone) {}
 
@@ -41,15 +43,33 @@ class BlockTable {
     for (; buckets_[b] != kNone; b = next(b), ++probes) {
       if (blocks_[static_cast<size_t>(buckets_[b])] == block) return buckets_[b];
     }
-    const auto slot = static_cast<int32_t>(blocks_.size());
+    const int32_t slot = takeSlot(block);
     buckets_[b] = slot;
-    blocks_.push_back(block);
-    const bool full = 2 * blocks_.size() > buckets_.size();
-    if (full || probes > kMaxProbes) rehash(full ? 2 * buckets_.size() : buckets_.size());
+    if (isOverfull() || probes > kMaxProbes) {
+      rehash(isOverfull() ? 2 * buckets_.size() : buckets_.size());
+    }
     return slot;
   }
 
+  /// The block must be known; its slot becomes free and holds kErased until it is used again.
+  void erase(const VoxelIndex& block) {
+    size_t hole = firstBucket(block);
+    while (blocks_[static_cast<size_t>(buckets_[hole])] != block) hole = next(hole);
+    free_.push_back(buckets_[hole]);
+    blocks_[static_cast<size_t>(buckets_[hole])] = kErased;
+    for (size_t b = next(hole); buckets_[b] != kNone; b = next(b)) {
+      const size_t first = firstBucket(blocks_[static_cast<size_t>(buckets_[b])]);
+      if (distance(first, b) < distance(hole, b)) continue;
+      buckets_[hole] = buckets_[b];
+      hole = b;
+    }
+    buckets_[hole] = kNone;
+  }
+
+  /// A number above all slots, of which some may be free.
   size_t size() const { return blocks_.size(); }
+  size_t freeCount() const { return free_.size(); }
+  /// The block of a slot; kErased if it is free.
   const VoxelIndex& block(size_t slot) const { return blocks_[slot]; }
   /// Buckets that a search for a known block looks at in vain.
   size_t probes(const VoxelIndex& block) const {
@@ -63,23 +83,26 @@ class BlockTable {
 
   void clear() {
     blocks_.clear();
+    free_.clear();
     buckets_.assign(buckets_.size(), kNone);
   }
 
   size_t bytes() const {
-    return buckets_.capacity() * sizeof(int32_t) + blocks_.capacity() * sizeof(VoxelIndex);
+    return (buckets_.capacity() + free_.capacity()) * sizeof(int32_t) +
+           blocks_.capacity() * sizeof(VoxelIndex);
   }
 
   /// The blocks in their order; the hash is made anew. Throws ArchiveError if one is out of the
-  /// grid's range or there twice.
+  /// grid's range or there twice, or if the free slots are not those of erased blocks.
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.blocks_);
+    bytes(self.blocks_, self.free_);
     if constexpr (Archive::kReads) self.insertAgain();
   }
 
  private:
   void insertAgain();
+  void requireFree(const std::vector<int32_t>& free) const;
 
   static constexpr size_t kMinBuckets = 64;
   // Half full, a table of a million random blocks has no search as long.
@@ -89,6 +112,20 @@ class BlockTable {
     return mixBits(packedIndex(block) ^ seed_) & (buckets_.size() - 1);
   }
   size_t next(size_t bucket) const { return (bucket + 1) & (buckets_.size() - 1); }
+  size_t distance(size_t from, size_t to) const { return (to - from) & (buckets_.size() - 1); }
+
+  bool isOverfull() const { return 2 * (blocks_.size() - free_.size()) > buckets_.size(); }
+
+  int32_t takeSlot(const VoxelIndex& block) {
+    if (free_.empty()) {
+      blocks_.push_back(block);
+      return static_cast<int32_t>(blocks_.size()) - 1;
+    }
+    const int32_t slot = free_.back();
+    free_.pop_back();
+    blocks_[static_cast<size_t>(slot)] = block;
+    return slot;
+  }
 
   /// Fills the table anew, by another hash if this one needs too long searches.
   void rehash(size_t bucket_count) {
@@ -98,6 +135,7 @@ class BlockTable {
   bool fill(size_t bucket_count) {
     buckets_.assign(bucket_count, kNone);
     for (size_t slot = 0; slot < blocks_.size(); ++slot) {
+      if (blocks_[slot] == kErased) continue;
       size_t b = firstBucket(blocks_[slot]);
       size_t probes = 0;
       for (; buckets_[b] != kNone; b = next(b)) ++probes;
@@ -110,6 +148,7 @@ class BlockTable {
   uint64_t seed_;                 // of the hash
   std::vector<int32_t> buckets_;  // a power of two, at most half full
   std::vector<VoxelIndex> blocks_;
+  std::vector<int32_t> free_;  // slots of erased blocks
 };
 
 /// The number of bits set, without an instruction that some processors lack.
@@ -191,12 +230,22 @@ class BitGrid {
     return last_slot_;
   }
 
+  /// Takes a block with all its voxels out; its memory is used for the next new one.
+  void eraseBlock(const VoxelIndex& block) {
+    const int32_t slot = table_.find(block);
+    if (slot == BlockTable::kNone) return;
+    blocks_.edit(static_cast<size_t>(slot)).fill(0);
+    table_.erase(block);
+    last_index_ = BlockTable::kErased;
+  }
+
   /// The bits of a block; null when the block holds nothing.
   const Block* findBlock(const VoxelIndex& block) const {
     const int32_t slot = table_.find(block);
     return slot == BlockTable::kNone ? nullptr : &blocks_[static_cast<size_t>(slot)];
   }
 
+  /// Erased blocks count until they are used again; they are empty and have no index.
   size_t blockCount() const { return used_; }
   const VoxelIndex& blockIndex(size_t slot) const { return table_.block(slot); }
   const Block& block(size_t slot) const { return blocks_[slot]; }
@@ -236,7 +285,7 @@ class BitGrid {
   }
 
   /// Calls visit(slot) for the blocks that differ from those of `earlier`, a copy of this grid made
-  /// since it was last cleared. What is shared takes no time.
+  /// since it was last cleared; no block may have been erased since. What is shared takes no time.
   template <typename Visit>
   void forEachChangedBlock(const BitGrid& earlier, Visit&& visit) const {
     blocks_.forEachNotShared(earlier.blocks_, [&](size_t slot) {
@@ -249,13 +298,17 @@ class BitGrid {
   }
 
   size_t bytes() const { return table_.bytes() + blocks_.bytes(); }
+  /// The part of bytes() that erased blocks took and new ones will.
+  size_t freeBytes() const { return table_.freeCount() * sizeof(Block); }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.table_);
     if constexpr (Archive::kReads) self.makeBlocks();
-    for (size_t slot = 0; slot < self.used_; ++slot)
+    for (size_t slot = 0; slot < self.used_; ++slot) {
       Pool<Block>::archiveElement(self.blocks_, slot, bytes);
+    }
+    if constexpr (Archive::kReads) self.checkRead();
   }
 
  private:
@@ -267,8 +320,14 @@ class BitGrid {
   void makeBlocks() {
     used_ = table_.size();
     while (blocks_.size() < used_) blocks_.grow();
-    last_slot_ = 0;
-    if (used_ > 0) last_index_ = table_.block(0);
+    last_index_ = BlockTable::kErased;
+  }
+  void checkRead() const {
+    for (size_t slot = 0; slot < used_; ++slot) {
+      if (blockIndex(slot) == BlockTable::kErased && !Layout::isEmpty(blocks_[slot])) {
+        throw ArchiveError("an erased block has voxels");
+      }
+    }
   }
 
   BlockTable table_;
@@ -387,11 +446,38 @@ class SlotGrid {
     const int cell = Layout::cell(v);
     if (!blocks_[static_cast<size_t>(found)].occupied.test(cell)) return;
     Block& block = blocks_.edit(static_cast<size_t>(found));
+    if (block.slots.size() == 1) return eraseBlock(Layout::block(v));
     slot_bytes_ -= bytesOf(block.slots);
     block.slots.erase(block.slots.begin() + static_cast<std::ptrdiff_t>(block.rank(cell)));
     slot_bytes_ += bytesOf(block.slots);
     block.occupied.reset(cell);
     for (size_t w = Bits::wordOf(cell) + 1; w < Bits::kWords; ++w) --block.before[w];
+  }
+
+  /// Takes a block with all its voxels out; what it held apart from the slots is used for the next
+  /// new one.
+  void eraseBlock(const VoxelIndex& index) {
+    const int32_t found = findBlock(index);
+    if (found == BlockTable::kNone) return;
+    Block& block = blocks_.edit(static_cast<size_t>(found));
+    slot_bytes_ -= bytesOf(block.slots);
+    block = {};
+    table_.erase(index);
+    last_ = kNoBlock;
+  }
+
+  /// Gives a voxel that has a slot another one.
+  void setSlot(const VoxelIndex& v, uint32_t slot) {
+    Block& block = blocks_.edit(static_cast<size_t>(findBlock(Layout::block(v))));
+    block.slots[block.rank(Layout::cell(v))] = slot;
+  }
+
+  /// Gives the memory back that a block holds for more voxels than it has; bytes() counts none.
+  void shrinkBlock(size_t block) {
+    const std::vector<uint32_t>& slots = blocks_[block].slots;
+    if (slots.capacity() == slots.size()) return;
+    std::vector<uint32_t>& shrunk = blocks_.edit(block).slots;
+    std::vector<uint32_t>(shrunk).swap(shrunk);
   }
 
   uint32_t find(const VoxelIndex& v) const {
@@ -411,8 +497,20 @@ class SlotGrid {
     for (const uint32_t slot : blocks_[block].slots) visit(slot);
   }
 
+  /// Calls visit(VoxelIndex, slot) in the same order.
+  template <typename Visit>
+  void forEachVoxelInBlock(size_t block, Visit&& visit) const {
+    const Block& of = blocks_[block];
+    for (int cell = 0, rank = 0; rank < static_cast<int>(of.slots.size()); ++cell) {
+      if (!of.occupied.test(cell)) continue;
+      visit(Layout::voxel(blockIndex(block), cell / kSide, cell % kSide),
+            of.slots[static_cast<size_t>(rank++)]);
+    }
+  }
+
   /// BlockTable::kNone if there is none.
   int32_t findBlock(const VoxelIndex& block) const { return table_.find(block); }
+  /// Erased blocks count until they are used again.
   size_t blockCount() const { return table_.size(); }
   const VoxelIndex& blockIndex(size_t block) const { return table_.block(block); }
   const Block& block(size_t block) const { return blocks_[block]; }
@@ -420,6 +518,8 @@ class SlotGrid {
   void clear() { *this = {}; }
 
   size_t bytes() const { return table_.bytes() + blocks_.bytes() + slot_bytes_; }
+  /// The part of bytes() that erased blocks took and new ones will.
+  size_t freeBytes() const { return table_.freeCount() * sizeof(Block); }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
@@ -428,7 +528,7 @@ class SlotGrid {
     for (size_t block = 0; block < self.blockCount(); ++block) {
       Pool<Block>::archiveElement(self.blocks_, block, bytes);
     }
-    if constexpr (Archive::kReads) self.countSlotBytes();
+    if constexpr (Archive::kReads) self.checkRead();
   }
 
  private:
@@ -437,9 +537,14 @@ class SlotGrid {
     while (blocks_.size() < table_.size()) blocks_.grow();
     last_ = kNoBlock;
   }
-  void countSlotBytes() {
+  void checkRead() {
     slot_bytes_ = 0;
-    for (const Block& block : blocks_) slot_bytes_ += bytesOf(block.slots);
+    for (size_t block = 0; block < blockCount(); ++block) {
+      slot_bytes_ += bytesOf(blocks_[block].slots);
+      if (blocks_[block].slots.empty() != (blockIndex(block) == BlockTable::kErased)) {
+        throw ArchiveError("a block has no voxel");
+      }
+    }
   }
 
   static constexpr size_t kNoBlock = static_cast<size_t>(-1);

@@ -13,7 +13,9 @@
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/grid/block_grid.hpp"
 #include "edgevox/grid/pool.hpp"
+#include "edgevox/grid/slots.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/far_regions.hpp"
 #include "edgevox/map/lone_voxels.hpp"
 #include "edgevox/map/match_map.hpp"
 #include "edgevox/map/moment_level.hpp"
@@ -27,14 +29,17 @@ namespace edgevox {
 /// its origin goes on; only while it is made must the origin stand still.
 class MapBuilder {
  public:
-  /// `voxel_size` [m] is that of level 0; map.coarsest_voxel fixes the number of levels.
-  MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges, int threads);
+  /// `voxel_size` [m] is that of level 0; map.coarsest_voxel fixes the number of levels. No point
+  /// lies farther from its sensor than `max_range` [m].
+  MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges, int threads,
+             double max_range = VoxelizerConfig{}.max_range);
 
   /// add(), then label() when it is due.
   void insert(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   /// Adds one scan's centroids, seen from `sensor`, in the map frame [m]; those out of the grid's
   /// range are ignored and counted, those that stand alone wait for a second hit. Takes out the
-  /// voxels that `clear_after` scans have seen through.
+  /// voxels that `clear_after` scans have seen through. Freezes the regions that have been out of
+  /// reach for `freeze_after` scans, and thaws those that the scan changes.
   void add(const std::vector<Eigen::Vector3d>& centroids, const Eigen::Vector3d& sensor);
   /// Whether it is time to label: every `label_every` scans, never where only the map's output
   /// needs labels.
@@ -56,10 +61,12 @@ class MapBuilder {
 
   /// The moments of a level; 1 <= level <= MatchMap::kSurfaceLevels.
   const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
-  /// Voxels of level 0 with at least `min_hits`.
-  const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
+  /// Voxels of level 0 with at least `min_hits`: a copy, as those of frozen regions are packed.
+  BitGrid<16> hitVoxels() const;
+  size_t hitVoxelCount() const { return hit_voxels_.voxelCount() + frozenVoxels(); }
   const BitGrid<16>& edgeVoxels() const { return match_map_.edgeVoxels(); }
-  /// Mean of the centroids that fell in a voxel of level 0; the voxel must have been hit.
+  /// Mean of the centroids that fell in a voxel of level 0, which must be in hitVoxels(); in frozen
+  /// regions that of an edge voxel to 1/256 of its size, of any other its centre.
   Eigen::Vector3d centroid(const VoxelIndex& v) const;
 
   size_t ignoredCentroids() const { return ignored_; }
@@ -71,6 +78,12 @@ class MapBuilder {
   bool isFull() const { return full_; }
   /// How often a voxel has left hitVoxels(), because later scans saw through it.
   size_t clearedVoxels() const { return cleared_count_; }
+  /// The number of frozen regions: cubes of 32 voxels of which only what matching needs is kept.
+  size_t frozenRegions() const { return far_.frozenCount(); }
+  /// The number of voxels of hitVoxels() in them.
+  size_t frozenVoxels() const { return far_.frozenVoxels(); }
+  /// How often a region has come back.
+  size_t thawedRegions() const { return thawed_count_; }
   /// Size of what is held while mapping.
   size_t bytes() const;
 
@@ -78,9 +91,9 @@ class MapBuilder {
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.scans_, self.ignored_, self.cleared_count_, self.left_out_lone_, self.left_out_full_,
-          self.full_, self.lone_voxels_, self.hit_grid_, self.hits_, self.free_hits_,
-          self.hit_voxels_, self.edge_candidates_, self.changed_, self.match_map_,
-          self.random_share_);
+          self.full_, self.thawed_count_, self.lone_voxels_, self.hit_grid_, self.hits_,
+          self.hit_slots_, self.hit_voxels_, self.edge_candidates_, self.changed_, self.match_map_,
+          self.far_, self.random_share_);
     for (auto& level : self.moments_) bytes(level);
     bytes(self.touched_);
     if constexpr (Archive::kReads) self.checkRead();
@@ -116,7 +129,9 @@ class MapBuilder {
     ScanNeighbours neighbours;
   };
 
-  void checkRead() const;
+  void checkRead();
+  void checkHits();
+  void checkSurfaces(int level) const;
   /// Makes the centroids and voxels of scan_, of those in range.
   void setPoints(const std::vector<Eigen::Vector3d>& centroids);
   /// Leaves in scan_ the points whose voxel passes the test, in their order.
@@ -125,8 +140,14 @@ class MapBuilder {
   void leaveOutLone();
   void leaveOutNew();
   bool isBesideEstablished(const VoxelIndex& parent) const;
+  bool isFrozen(const VoxelIndex& v) const;
+  /// Whether there is a hit voxel in one of a level, in a region that is not frozen.
+  bool isHitWithin(const VoxelIndex& v, int level) const;
   void addPoints(const Eigen::Vector3d& sensor);
   Eigen::Vector3d centroidOf(uint32_t slot, const VoxelIndex& v) const;
+  /// The slot of a voxel in hits_, which is made if there is none.
+  uint32_t hitSlot(const VoxelIndex& v);
+  void dropHit(uint32_t slot);
   void addHits();
   void addMoments(int level);
   /// A voxel that has its min_hits.
@@ -141,19 +162,36 @@ class MapBuilder {
   void subtractMoments(const VoxelIndex& v);
   void sumChildren(int level, const VoxelIndex& v);
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
-  /// One finer voxel of v's came to be or hold an edge (+1), or no longer does (-1).
-  void countEdge(int level, const VoxelIndex& v, int change);
+  /// The finer voxels of v that are or hold edges have changed.
+  void countEdges(int level, const VoxelIndex& v);
   /// The block of this voxel is due for a choice of what is selected.
   void touch(int level, uint32_t slot);
   void chooseAnchorsAnew();
   void selectRandom();
   void selectEdges();
+  void freezeFar(const Eigen::Vector3d& sensor);
+  bool freezeDue() const;
+  void freezeAll(const std::vector<VoxelIndex>& regions);
+  void freeze(const VoxelIndex& region);
+  void packVoxels(const VoxelIndex& region, FrozenRegion& frozen);
+  void dropHits(const VoxelIndex& region);
+  void packCells(int level, const VoxelIndex& region, std::vector<PackedCell>& packed);
+  /// Thaws the regions that a change of voxel v concerns.
+  void thawAround(const VoxelIndex& v);
+  void thaw(const VoxelIndex& region);
+  void reviveHit(const VoxelIndex& v, const Eigen::Vector3d& in_voxel);
+  const PackedCell* unpackCells(int level, const VoxelIndex& region, const PackedCell* next);
+  Eigen::Vector3d frozenCentroid(const VoxelIndex& v) const;
+  void checkFrozen(const VoxelIndex& region, const FrozenRegion& frozen) const;
+  /// Size of what is held less what will be used again.
+  size_t usedBytes() const;
   MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
   void select(int level, uint32_t slot, bool selected) {
     momentLevel(level).select(slot, selected, match_map_.surfaces(level));
   }
 
   double voxel_size_;
+  double max_range_;
   MapConfig config_;
   EdgeLabeller<16> labeller_;
   int edge_neighbours_;  // see thinEdges()
@@ -162,16 +200,18 @@ class MapBuilder {
   size_t cleared_count_ = 0;
   size_t left_out_lone_ = 0;
   size_t left_out_full_ = 0;
+  size_t thawed_count_ = 0;
   bool full_ = false;
   RecentVoxels lone_voxels_;
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
-  std::vector<uint32_t> free_hits_;  // slots of removed voxels
-  BitGrid<16> hit_voxels_;
+  Slots hit_slots_;
+  BitGrid<16> hit_voxels_;       // of regions that are not frozen
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
   BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
   std::vector<MomentLevel> moments_;
   MatchMap match_map_;
+  FarRegions far_;
   // slots by level - 1, repeated
   std::array<std::vector<uint32_t>, MatchMap::kSurfaceLevels> touched_;
   std::array<double, MatchMap::kSurfaceLevels> random_share_{};  // of the voxels of a level

@@ -60,6 +60,8 @@ class MatchMap {
 
   /// Size of what is held in memory.
   size_t bytes() const;
+  /// The part of bytes() that is free and will be used again.
+  size_t freeBytes() const;
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {

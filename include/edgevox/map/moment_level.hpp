@@ -10,38 +10,45 @@
 
 #include "edgevox/grid/pool.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/packed_cell.hpp"
 #include "edgevox/map/surface.hpp"
 #include "edgevox/map/surface_level.hpp"
 
 namespace edgevox {
 
+/// The sums over the centroids of a voxel.
+struct MomentCell {
+  static constexpr int8_t kNotFlat = -1;
+
+  std::array<float, 3> sum{};    ///< of the centroids, from the voxel's centre [m]
+  std::array<float, 6> outer{};  ///< xx, yy, zz, xy, yz, zx of the same [m^2]
+  std::array<float, 3> view{};   ///< sum of the unit vectors to the sensor
+  uint32_t count = 0;            ///< centroids
+  uint32_t last_scan = 0;
+  uint16_t hits = 0;            ///< scans
+  uint8_t edge_children = 0;    ///< finer voxels that are or hold edges
+  int8_t flat_axis = kNotFlat;  ///< as of the last findFlatAxis()
+  bool anchor = false;          ///< see AnchorRule
+  bool stale = false;           ///< changed since its surface was computed
+  bool is_back = false;         ///< only sums, count and view are its own
+  bool selected = false;        ///< for matching; a back surface follows its voxel
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.sum, self.outer, self.view, self.count, self.last_scan, self.hits,
+          self.edge_children, self.flat_axis, self.anchor, self.stale, self.is_back, self.selected);
+  }
+};
+
 /// The sums over centroids from which the surfaces of a level are computed, in the same slots.
+/// Slots of kind Slots::kFar have none: those of selected voxels are kept packed, elsewhere.
 /// Which of them are `selected` depends on the representation of the map. Copies share their
 /// memory: see Pool.
 class MomentLevel {
  public:
-  struct Cell {
-    std::array<float, 3> sum{};    ///< of the centroids, from the voxel's centre [m]
-    std::array<float, 6> outer{};  ///< xx, yy, zz, xy, yz, zx of the same [m^2]
-    std::array<float, 3> view{};   ///< sum of the unit vectors to the sensor
-    uint32_t count = 0;            ///< centroids
-    uint32_t last_scan = 0;
-    uint16_t hits = 0;            ///< scans
-    uint8_t edge_children = 0;    ///< finer voxels that are or hold edges
-    int8_t flat_axis = kNotFlat;  ///< as of the last findFlatAxis()
-    bool anchor = false;          ///< see AnchorRule
-    bool stale = false;           ///< changed since its surface was computed
-    bool is_back = false;         ///< only sums, count and view are its own
-    bool selected = false;        ///< for matching; a back surface follows its voxel
-
-    template <typename Self, typename Archive>
-    static void archive(Self& self, Archive& bytes) {
-      bytes(self.sum, self.outer, self.view, self.count, self.last_scan, self.hits,
-            self.edge_children, self.flat_axis, self.anchor, self.stale, self.is_back,
-            self.selected);
-    }
-  };
-  static constexpr int8_t kNotFlat = -1;
+  using Cell = MomentCell;
+  static constexpr int8_t kNotFlat = Cell::kNotFlat;
+  static constexpr size_t kCellBytes = sizeof(Cell) + sizeof(VoxelIndex);
 
   explicit MomentLevel(double voxel_size) : voxel_size_(voxel_size) {}
 
@@ -56,6 +63,12 @@ class MomentLevel {
   void setMoments(uint32_t slot, const Moments& moments);
   /// Takes an occupied voxel out.
   void erase(const VoxelIndex& v, SurfaceLevel& surfaces);
+  /// Puts the cells of a voxel, first side first, behind `packed` and takes them out; its surfaces
+  /// stay.
+  void pack(const VoxelIndex& v, SurfaceLevel& surfaces, std::vector<PackedCell>& packed);
+  /// Makes the cells again, of which `packed` is the first; gives the one behind the last.
+  const PackedCell* unpack(const VoxelIndex& v, SurfaceLevel& surfaces, const PackedCell* packed,
+                           uint8_t edge_children);
   /// Computes the surfaces of the selected cells that have changed.
   void updateSelected(SurfaceLevel& surfaces);
   /// Computes the surfaces of all cells that have changed.
@@ -68,14 +81,17 @@ class MomentLevel {
   Cell& editCell(uint32_t slot) { return cells_.edit(slot); }
   const Cell& cell(uint32_t slot) const { return cells_[slot]; }
   const VoxelIndex& voxel(uint32_t slot) const { return voxels_[slot]; }
+  /// A number above all slots, of which some may be free or have no cell.
   size_t size() const { return cells_.size(); }
+  /// Whether cell() may be called; an erased one may be there still, without hits.
+  bool hasCell(uint32_t slot) const { return cells_.holds(slot); }
   /// The moments of the first side, about the voxel's centre.
   Moments moments(uint32_t slot) const;
   /// Unit normal of the first side, zero if that is not flat.
   Eigen::Vector3d normal(uint32_t slot) const;
-  /// The number of surfaces of the selected voxels.
+  /// The number of surfaces of the selected voxels that have cells.
   size_t selectedSurfaces() const;
-  size_t bytes() const { return cells_.bytes() + voxels_.bytes(); }
+  size_t bytes() const;
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
@@ -87,7 +103,9 @@ class MomentLevel {
  private:
   void makeCell(uint32_t slot, const VoxelIndex& v);
   uint32_t sideSlot(uint32_t slot, const Eigen::Vector3f& to_sensor, SurfaceLevel& surfaces);
+  void dropCell(uint32_t slot, const SurfaceLevel& surfaces);
   void setStale(uint32_t slot);
+  bool isStale(uint32_t slot) const { return hasCell(slot) && cells_[slot].stale; }
   enum class Side { kKeep, kRefresh };
   /// What a look at unselected voxels computes must not change where later centroids go: it keeps
   /// the side.

@@ -10,6 +10,7 @@
 
 #include "edgevox/grid/block_grid.hpp"
 #include "edgevox/grid/pool.hpp"
+#include "edgevox/grid/slots.hpp"
 #include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
@@ -67,21 +68,34 @@ class SurfaceLevel {
   bool hasBack(uint32_t slot) const { return surfaces_[slot].back_surface != kNone; }
   /// A number above all slots, of which some may be free.
   size_t slotCount() const { return surfaces_.size(); }
+  const Slots& slots() const { return slots_; }
   /// The number of selected voxels.
   size_t selectedCount() const { return selected_count_; }
   size_t bytes() const;
+  /// The part of bytes() that is free and will be used again.
+  size_t freeBytes() const;
 
   /// The block of 8 voxels a side that holds a voxel.
   size_t blockOf(const VoxelIndex& v) const {
     return static_cast<size_t>(grid_.findBlock(Grid::Layout::block(v)));
   }
-  bool hasBlock(const VoxelIndex& v) const {
-    return grid_.findBlock(Grid::Layout::block(v)) != BlockTable::kNone;
-  }
   /// Calls visit(slot) for the voxels of a block in a fixed order.
   template <typename Visit>
   void forEachInBlock(size_t block, Visit&& visit) const {
     grid_.forEachInBlock(block, visit);
+  }
+  /// Calls visit(VoxelIndex, slot) for all voxels, or those of the block with this index, if there
+  /// is one. Voxels must neither come nor go.
+  template <typename Visit>
+  void forEachVoxel(Visit&& visit) const {
+    for (size_t block = 0; block < grid_.blockCount(); ++block) {
+      grid_.forEachVoxelInBlock(block, visit);
+    }
+  }
+  template <typename Visit>
+  void forEachVoxelInBlock(const VoxelIndex& block, Visit&& visit) const {
+    const int32_t found = grid_.findBlock(block);
+    if (found != BlockTable::kNone) grid_.forEachVoxelInBlock(static_cast<size_t>(found), visit);
   }
 
   /// The slot of a voxel, which is made if there is none.
@@ -90,6 +104,10 @@ class SurfaceLevel {
   uint32_t insertBack(uint32_t slot);
   /// Takes out a voxel's surface with its back; the slots are used again.
   void erase(const VoxelIndex& v);
+  /// Moves the surfaces of a voxel to slots of the other kind.
+  void move(const VoxelIndex& v, Slots::Kind to);
+  /// Gives back what a block holds beyond its voxels.
+  void shrinkBlock(const VoxelIndex& block);
   /// To be written to; stays where it is until the level is copied.
   Surface& editSurface(uint32_t slot) { return surfaces_.edit(slot); }
   /// Selects, or not, a voxel that has a slot.
@@ -97,7 +115,7 @@ class SurfaceLevel {
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.grid_, self.selected_, self.surfaces_, self.free_);
+    bytes(self.grid_, self.selected_, self.surfaces_, self.slots_);
     if constexpr (Archive::kReads) self.checkRead();
   }
 
@@ -105,15 +123,16 @@ class SurfaceLevel {
   using Grid = SlotGrid<8>;
 
   void checkRead();
-  uint32_t nextSlot() const;
-  uint32_t takeSlot();
+  std::vector<bool> slotsInUse() const;
+  uint32_t takeSlot(Slots::Kind kind);
+  void giveBack(uint32_t slot);
 
   double voxel_size_;
   Grid grid_;
   Pool<Grid::Bits> selected_;  // one a block of grid_
   size_t selected_count_ = 0;
   Pool<Surface> surfaces_;
-  std::vector<uint32_t> free_;  // erased slots
+  Slots slots_;
 };
 
 }  // namespace edgevox

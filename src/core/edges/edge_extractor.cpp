@@ -213,13 +213,16 @@ void thinEdges(const BitGrid<kSide>& candidates, const BitGrid<kSide>& targets, 
   for (size_t slot = 0; slot < targets.blockCount(); ++slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
     const Neighbourhood<kSide, 1> rows(candidates, block);
-    auto& edge_block = edges.editBlock(edges.insertBlock(block));
+    const auto* before = edges.findBlock(block);
+    typename BitGrid<kSide>::Block now{};
+    if (before != nullptr) now = *before;
     for (int row = 0; row < BlockLayout<kSide>::kRows; ++row) {
       const auto r = static_cast<size_t>(row);
       const uint32_t kept = surrounded<kSide>(rows.data(), row, targets.block(slot)[r], neighbours);
-      edge_block[r] = static_cast<typename BitGrid<kSide>::Row>(
-          (edge_block[r] & ~targets.block(slot)[r]) | kept);
+      now[r] = static_cast<typename BitGrid<kSide>::Row>((now[r] & ~targets.block(slot)[r]) | kept);
     }
+    const bool same = before != nullptr ? now == *before : BlockLayout<kSide>::isEmpty(now);
+    if (!same) edges.editBlock(edges.insertBlock(block)) = now;
   }
 }
 

@@ -172,7 +172,7 @@ std::string mapFileBytes(MapContent content, const Mapper& mapper, const Config&
   const MapFileHead head{content,
                          map_frame,
                          map.scans(),
-                         map.hitVoxels().voxelCount(),
+                         map.hitVoxelCount(),
                          map.edgeVoxels().voxelCount(),
                          parametersText(config)};
   if (content == MapContent::kCompact) {

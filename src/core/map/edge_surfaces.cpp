@@ -15,21 +15,24 @@ void MapBuilder::selectEdges() {
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     auto& slots = touched_[static_cast<size_t>(l - 1)];
     sortUnique(slots);
-    for (const uint32_t slot : slots) select(l, slot, moments(l).cell(slot).edge_children > 0);
+    for (const uint32_t slot : slots) {
+      if (!moments(l).hasCell(slot) || moments(l).cell(slot).is_back) continue;
+      select(l, slot, moments(l).cell(slot).edge_children > 0);
+    }
     slots.clear();
   }
 }
 
 MatchMap MapBuilder::completeMap() const {
   MatchMap map = match_map_;
-  map.hitVoxels() = hit_voxels_;
+  map.hitVoxels() = hitVoxels();
   const std::vector<VoxelIndex> voxels = inTreeOrder(edgeVoxels());
-  const std::vector<Eigen::Vector3f> directions = edgeDirections(hit_voxels_, voxels);
+  const std::vector<Eigen::Vector3f> directions = edgeDirections(map.hitVoxels(), voxels);
   for (size_t i = 0; i < voxels.size(); ++i) {
     map.edges().push_back({voxels[i], centroid(voxels[i]).cast<float>(), directions[i]});
   }
   if (config_.representation != Representation::kEdges) return map;
-  for (const VoxelIndex& v : besideEdges(hit_voxels_, edgeVoxels())) {
+  for (const VoxelIndex& v : besideEdges(map.hitVoxels(), edgeVoxels())) {
     map.besideEdges().push_back({v, centroid(v).cast<float>()});
   }
   return map;

@@ -82,15 +82,20 @@ bool MapBuilder::isBesideEstablished(const VoxelIndex& parent) const {
   const SurfaceLevel& surfaces = match_map_.surfaces(1);
   BitReader<8> occupied(match_map_.occupied(1));
   return areAround(parent, 1, [&](const VoxelIndex& v) {
-    const uint32_t slot = occupied.test(v) ? surfaces.slotOf(v) : SlotGrid<8>::kNone;
-    return slot != SlotGrid<8>::kNone && moments(1).cell(slot).hits >= kEstablished;
+    if (!occupied.test(v)) return false;
+    const uint32_t slot = surfaces.slotOf(v);
+    if (slot == SurfaceLevel::kNone || !moments(1).hasCell(slot))
+      return isHitWithin(v, 1) || isFrozen({2 * v.x, 2 * v.y, 2 * v.z});
+    return moments(1).cell(slot).hits >= kEstablished;
   });
 }
 
 /// A map as large as it may be keeps what it knows up to date.
 void MapBuilder::leaveOutNew() {
   const size_t all = scan_.voxels.size();
-  keepPoints([this](const VoxelIndex& v) { return isHit(v); });
+  keepPoints([this](const VoxelIndex& v) {
+    return isHit(v) || (isFrozen(v) && match_map_.occupied(1).test(coarser(v, 1)));
+  });
   left_out_full_ += all - scan_.voxels.size();
 }
 

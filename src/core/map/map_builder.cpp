@@ -6,19 +6,22 @@
 #include <iterator>
 
 #include "core/grid/dilate.hpp"
+#include "core/map/edge_children.hpp"
 #include "core/sort_unique.hpp"
 
 namespace edgevox {
 namespace {
 
 constexpr size_t kMegabyte = 1000000;
+constexpr size_t kNoBlock = static_cast<size_t>(BlockTable::kNone);  // what was there is gone
 constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
 
 }  // namespace
 
 MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges,
-                       int threads)
+                       int threads, double max_range)
     : voxel_size_(voxel_size),
+      max_range_(max_range),
       config_(map),
       labeller_(edges, edges.map, threads),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
@@ -37,8 +40,10 @@ void MapBuilder::add(const std::vector<Eigen::Vector3d>& centroids, const Eigen:
   ++scans_;
   setPoints(centroids);
   leaveOutLone();
-  full_ = bytes() >= static_cast<size_t>(config_.memory) * kMegabyte;
+  freezeFar(sensor);
+  full_ = usedBytes() >= static_cast<size_t>(config_.memory) * kMegabyte;
   if (full_) leaveOutNew();
+  for (const VoxelIndex& v : scan_.voxels) thawAround(v);
   addPoints(sensor);
 }
 
@@ -74,14 +79,21 @@ bool MapBuilder::labelDue() const {
          scans_ % static_cast<uint32_t>(config_.label_every) == 0;
 }
 
+uint32_t MapBuilder::hitSlot(const VoxelIndex& v) {
+  const uint32_t next = hit_slots_.next(Slots::kNear);
+  const uint32_t slot = hit_grid_.insert(v, next);
+  if (slot == next) hits_.hold(hit_slots_.take(Slots::kNear)) = {};
+  return slot;
+}
+
+void MapBuilder::dropHit(uint32_t slot) {
+  hits_.edit(slot) = {};
+  hit_slots_.giveBack(slot);
+  hit_slots_.dropIfFree(slot, hits_);
+}
+
 void MapBuilder::addHits() {
-  for (size_t i = 0; i < scan_.voxels.size(); ++i) {
-    const uint32_t next =
-        free_hits_.empty() ? static_cast<uint32_t>(hits_.size()) : free_hits_.back();
-    scan_.slots[i] = hit_grid_.insert(scan_.voxels[i], next);
-    if (scan_.slots[i] != next) continue;
-    free_hits_.empty() ? static_cast<void>(hits_.grow()) : free_hits_.pop_back();
-  }
+  for (size_t i = 0; i < scan_.voxels.size(); ++i) scan_.slots[i] = hitSlot(scan_.voxels[i]);
   for (size_t i = 0; i < scan_.voxels.size(); ++i) {
     Hit& hit = hits_.edit(scan_.slots[i]);
     const Eigen::Vector3f d =
@@ -104,7 +116,10 @@ void MapBuilder::addMoments(int l) {
   for (size_t i = 0; i < scan_.voxels.size(); ++i) {
     const VoxelIndex v = coarser(scan_.voxels[i], l);
     scan_.slots[i] = level.slotFor(v, surfaces);
-    if (l == 1 && level.cell(scan_.slots[i]).hits == 0) markOccupied(v);
+    if (level.cell(scan_.slots[i]).hits != 0) continue;
+    if (l == 1) markOccupied(v);
+    if (thawed_count_ == 0) continue;
+    level.editCell(scan_.slots[i]).edge_children = edgeChildrenOf(edgeVoxels(), l, v);
   }
   for (size_t i = 0; i < scan_.voxels.size(); ++i) {
     if (!level.add(scan_.slots[i], scan_.centroids[i], scan_.to_sensor[i], scans_, surfaces))
@@ -132,14 +147,17 @@ void MapBuilder::markOccupied(const VoxelIndex& v) {
   }
 }
 
-void MapBuilder::countEdge(int l, const VoxelIndex& v, int change) {
+/// A thawed voxel without a cell is passed over: the coarser one may have one.
+void MapBuilder::countEdges(int l, const VoxelIndex& v) {
   const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  auto& children = momentLevel(l).editCell(slot).edge_children;
-  const bool held = children != 0;
-  children = static_cast<uint8_t>(children + change);
-  if (held == (children != 0)) return;
-  touch(l, slot);
-  if (l < MatchMap::kSurfaceLevels) countEdge(l + 1, coarser(v, 1), change);
+  if (slot != SurfaceLevel::kNone) {
+    const uint8_t before = moments(l).cell(slot).edge_children;
+    const uint8_t now = edgeChildrenOf(edgeVoxels(), l, v);
+    if (now != before) momentLevel(l).editCell(slot).edge_children = now;
+    if ((now != 0) == (before != 0)) return;
+    touch(l, slot);
+  }
+  if (l < MatchMap::kSurfaceLevels) countEdges(l + 1, coarser(v, 1));
 }
 
 void MapBuilder::touch(int l, uint32_t slot) {
@@ -155,11 +173,14 @@ void MapBuilder::chooseAnchorsAnew() {
     sortUnique(slots);
     std::vector<size_t> blocks(slots.size());
     for (size_t i = 0; i < slots.size(); ++i) {
+      blocks[i] = kNoBlock;
+      if (!level.hasCell(slots[i])) continue;
       if (level.cell(slots[i]).hits >= config_.min_hits) level.findFlatAxis(slots[i]);
       blocks[i] = surfaces.blockOf(level.voxel(slots[i]));
     }
     slots.clear();
     sortUnique(blocks);
+    if (!blocks.empty() && blocks.back() == kNoBlock) blocks.pop_back();
     const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
     for (const size_t block : blocks) {
       chooseAnchors(level, surfaces, block, {count, config_.min_hits});
@@ -180,8 +201,8 @@ void MapBuilder::label() {
   BitGrid<16>& edges = match_map_.edgeVoxels();
   std::vector<BitGrid<16>::Block> before(targets.blockCount());
   for (size_t slot = 0; slot < before.size(); ++slot) {
-    const size_t edge_slot = edges.insertBlock(targets.blockIndex(slot));
-    before[slot] = edges.block(edge_slot);
+    const auto* known = edges.findBlock(targets.blockIndex(slot));
+    before[slot] = known == nullptr ? BitGrid<16>::Block{} : *known;
   }
   thinEdges(edge_candidates_, targets, edge_neighbours_, edges);
   changeEdges(targets, before);
@@ -194,14 +215,14 @@ void MapBuilder::changeEdges(const BitGrid<16>& targets,
                              const std::vector<BitGrid<16>::Block>& before) {
   for (size_t slot = 0; slot < before.size(); ++slot) {
     const VoxelIndex& block = targets.blockIndex(slot);
-    const auto& now = *edgeVoxels().findBlock(block);
+    const auto* now = edgeVoxels().findBlock(block);
+    if (now == nullptr) continue;
     BitGrid<16>::Block differs;
-    for (size_t row = 0; row < now.size(); ++row) {
-      differs[row] = static_cast<uint16_t>(now[row] ^ before[slot][row]);
+    for (size_t row = 0; row < now->size(); ++row) {
+      differs[row] = static_cast<uint16_t>((*now)[row] ^ before[slot][row]);
     }
-    BitGrid<16>::forEachInBlock(block, differs, [&](const VoxelIndex& v) {
-      countEdge(1, coarser(v, 1), edgeVoxels().test(v) ? 1 : -1);
-    });
+    BitGrid<16>::forEachInBlock(block, differs,
+                                [&](const VoxelIndex& v) { countEdges(1, coarser(v, 1)); });
   }
 }
 
@@ -211,13 +232,14 @@ void MapBuilder::selectRandom() {
     size_t anchors = 0;
     size_t candidates = 0;
     for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (level.cell(slot).is_back) continue;
+      if (!level.hasCell(slot) || level.cell(slot).is_back) continue;
       anchors += level.cell(slot).anchor ? 1 : 0;
       candidates += level.cell(slot).hits >= config_.min_hits ? 1 : 0;
     }
     double& share = random_share_[static_cast<size_t>(l - 1)];
     share = static_cast<double>(anchors) / static_cast<double>(candidates);
     for (uint32_t slot = 0; slot < level.size(); ++slot) {
+      if (!level.hasCell(slot)) continue;
       const MomentLevel::Cell& cell = level.cell(slot);
       if (cell.is_back) continue;
       select(l, slot, cell.hits >= config_.min_hits && unitHash(level.voxel(slot)) < share);
@@ -237,24 +259,27 @@ void MapBuilder::clear() {
   cleared_count_ = 0;
   left_out_lone_ = 0;
   left_out_full_ = 0;
+  thawed_count_ = 0;
   full_ = false;
   lone_voxels_.clear();
   scan_.neighbours = {};
   hit_grid_ = {};
   hits_ = {};
-  free_hits_ = {};
+  hit_slots_ = {};
   hit_voxels_ = {};
   edge_candidates_ = {};
   changed_ = {};
   touched_ = {};
   random_share_ = {};
   match_map_ = MatchMap(voxel_size_, config_.coarsest_voxel);
+  far_ = {};
   moments_.clear();
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
 }
 
 Eigen::Vector3d MapBuilder::centroid(const VoxelIndex& v) const {
-  return centroidOf(hit_grid_.find(v), v);
+  const uint32_t slot = hit_grid_.find(v);
+  return slot == SlotGrid<8>::kNone ? frozenCentroid(v) : centroidOf(slot, v);
 }
 
 Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const {
@@ -264,44 +289,27 @@ Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const
 }
 
 size_t MapBuilder::bytes() const {
-  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_voxels_.bytes() +
+  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_slots_.bytes() + hit_voxels_.bytes() +
                  edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
-                 lone_voxels_.bytes() + scan_.neighbours.bytes();
+                 lone_voxels_.bytes() + scan_.neighbours.bytes() + far_.bytes();
   for (const MomentLevel& level : moments_) bytes += level.bytes();
+  for (const auto& slots : touched_) bytes += slots.capacity() * sizeof(uint32_t);
   return bytes;
 }
 
-void MapBuilder::checkRead() const {
-  const auto fail = [] { throw ArchiveError("the hits do not fit to their voxels"); };
-  const auto isOut = [this](uint32_t slot) { return slot >= hits_.size(); };
-  for (size_t block = 0; block < hit_grid_.blockCount(); ++block) {
-    hit_grid_.forEachInBlock(block, [&](uint32_t slot) {
-      if (isOut(slot)) fail();
-    });
-  }
-  if (std::any_of(free_hits_.begin(), free_hits_.end(), isOut)) fail();
+size_t MapBuilder::usedBytes() const {
+  size_t free = hit_grid_.freeBytes() + hit_slots_.freeCount(Slots::kNear) * sizeof(Hit) +
+                hit_voxels_.freeBytes() + edge_candidates_.freeBytes() + match_map_.freeBytes();
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& surfaces = match_map_.surfaces(l);
-    moments(l).checkRead(surfaces);
-    const auto& touched = touched_[static_cast<size_t>(l - 1)];
-    if (std::any_of(touched.begin(), touched.end(),
-                    [&](uint32_t slot) { return slot >= surfaces.slotCount(); })) {
-      fail();
-    }
-    const auto requireSurface = [&](const VoxelIndex& v) {
-      if (surfaces.slotOf(coarser(v, l)) == SurfaceLevel::kNone) fail();
-    };
-    hit_voxels_.forEach([&](const VoxelIndex& v) {
-      if (!isHit(v)) fail();
-      requireSurface(v);
-    });
-    edgeVoxels().forEach(requireSurface);
+    free += match_map_.surfaces(l).slots().freeCount(Slots::kNear) * MomentLevel::kCellBytes;
   }
+  return bytes() - free;
 }
 
 std::string fullText(const MapConfig& config) {
-  return "the map has reached map/memory, " + std::to_string(config.memory) +
-         " MB: new places are not added; choose a larger voxel_size or a smaller "
+  return "the map has reached map/memory, " + std::to_string(config.memory) + " MB" +
+         (config.freeze_after > 0 ? ", and what lies far off is frozen already" : "") +
+         ": new places are not added; choose a larger voxel_size or a smaller "
          "voxelizer/max_range, or, with memory to spare, a larger map/memory";
 }
 

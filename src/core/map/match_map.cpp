@@ -29,4 +29,10 @@ size_t MatchMap::bytes() const {
   return bytes;
 }
 
+size_t MatchMap::freeBytes() const {
+  size_t bytes = 0;
+  for (const SurfaceLevel& level : surfaces_) bytes += level.freeBytes();
+  return bytes;
+}
+
 }  // namespace edgevox

@@ -8,16 +8,13 @@
 namespace edgevox {
 uint32_t MomentLevel::slotFor(const VoxelIndex& v, SurfaceLevel& surfaces) {
   const uint32_t slot = surfaces.insert(v);
-  if (slot >= size() || cells_[slot].count == 0) makeCell(slot, v);
+  if (!hasCell(slot) || cells_[slot].count == 0) makeCell(slot, v);
   return slot;
 }
 
 void MomentLevel::makeCell(uint32_t slot, const VoxelIndex& v) {
-  while (size() <= slot) {
-    cells_.grow();
-    voxels_.grow();
-  }
-  voxels_.edit(slot) = v;
+  cells_.hold(slot);
+  voxels_.hold(slot) = v;
 }
 
 /// The cell of the surface in the voxel that `to_sensor` sees.
@@ -77,9 +74,43 @@ void MomentLevel::setMoments(uint32_t slot, const Moments& moments) {
 
 void MomentLevel::erase(const VoxelIndex& v, SurfaceLevel& surfaces) {
   const uint32_t slot = surfaces.slotOf(v);
-  if (surfaces.hasBack(slot)) cells_.edit(surfaces.surface(slot).back_surface) = {};
-  cells_.edit(slot) = {};
+  const uint32_t back = surfaces.surface(slot).back_surface;
   surfaces.erase(v);
+  dropCell(slot, surfaces);
+  if (back != Surface::kNone) dropCell(back, surfaces);
+}
+
+/// Of a slot that has been given back.
+void MomentLevel::dropCell(uint32_t slot, const SurfaceLevel& surfaces) {
+  if (!hasCell(slot)) return;  // it went with the chunk
+  cells_.edit(slot) = {};
+  surfaces.slots().dropIfFree(slot, cells_);
+  surfaces.slots().dropIfFree(slot, voxels_);
+}
+
+void MomentLevel::pack(const VoxelIndex& v, SurfaceLevel& surfaces,
+                       std::vector<PackedCell>& packed) {
+  const uint32_t slot = surfaces.slotOf(v);
+  const uint32_t back = surfaces.surface(slot).back_surface;
+  surfaces.move(v, Slots::kFar);
+  packed.emplace_back(cells_[slot], voxel_size_);
+  if (back != Surface::kNone) packed.emplace_back(cells_[back], voxel_size_);
+  dropCell(slot, surfaces);
+  if (back != Surface::kNone) dropCell(back, surfaces);
+}
+
+const PackedCell* MomentLevel::unpack(const VoxelIndex& v, SurfaceLevel& surfaces,
+                                      const PackedCell* packed, uint8_t edge_children) {
+  surfaces.move(v, Slots::kNear);
+  const uint32_t first = surfaces.slotOf(v);
+  const Eigen::Vector3d centre = voxelCentre(v, voxel_size_);
+  for (uint32_t slot = first; slot != Surface::kNone; slot = surfaces.surface(slot).back_surface) {
+    makeCell(slot, v);
+    cells_.edit(slot) =
+        (packed++)->unpacked(surfaces.surface(slot).mean.cast<double>() - centre, voxel_size_);
+  }
+  cells_.edit(first).edge_children = edge_children;
+  return packed;
 }
 
 void MomentLevel::update(uint32_t slot, Side side, SurfaceLevel& surfaces) {
@@ -95,7 +126,7 @@ void MomentLevel::update(uint32_t slot, Side side, SurfaceLevel& surfaces) {
 
 void MomentLevel::updateSelected(SurfaceLevel& surfaces) {
   for (const uint32_t slot : stale_) {
-    if (!cells_[slot].stale) continue;
+    if (!isStale(slot)) continue;
     if (cells_[slot].selected) {
       update(slot, Side::kRefresh, surfaces);
     } else {
@@ -115,7 +146,7 @@ void MomentLevel::dropRepeats() {
 void MomentLevel::updateAll(SurfaceLevel& surfaces) {
   for (const auto* slots : {&stale_, &stale_unselected_}) {
     for (const uint32_t slot : *slots) {
-      if (cells_[slot].stale) update(slot, Side::kKeep, surfaces);
+      if (isStale(slot)) update(slot, Side::kKeep, surfaces);
     }
   }
   stale_.clear();
@@ -150,22 +181,40 @@ Eigen::Vector3d MomentLevel::normal(uint32_t slot) const {
 }
 
 void MomentLevel::checkRead(const SurfaceLevel& surfaces) const {
-  const auto fail = [] { throw ArchiveError("the moments do not fit to their surfaces"); };
-  if (size() != surfaces.slotCount() || voxels_.size() != size()) fail();
-  for (size_t slot = 0; slot < size(); ++slot) {
-    if (!inGridRange(voxels_[slot]) || !surfaces.hasBlock(voxels_[slot])) fail();
-  }
-  for (const auto* slots : {&stale_, &stale_unselected_}) {
-    if (std::any_of(slots->begin(), slots->end(), [this](uint32_t s) { return s >= size(); })) {
-      fail();
+  const auto require = [](bool good) {
+    if (!good) throw ArchiveError("the moments do not fit to their surfaces");
+  };
+  std::vector<bool> used(size());
+  surfaces.forEachVoxel([&](const VoxelIndex& v, uint32_t first) {
+    for (uint32_t slot = first; slot != Surface::kNone;
+         slot = surfaces.surface(slot).back_surface) {
+      const bool far = surfaces.slots().kindOf(slot) == Slots::kFar;
+      require(far != hasCell(slot) && far != voxels_.holds(slot));
+      if (far) continue;
+      used[slot] = true;
+      const Cell& cell = cells_[slot];
+      require(voxels_[slot] == v && cell.is_back == (slot != first) && cell.flat_axis >= kNotFlat &&
+              cell.flat_axis < 3);
     }
+  });
+  for (uint32_t slot = 0; slot < size(); ++slot) {
+    if (used[slot] || !hasCell(slot)) continue;
+    const Cell& cell = cells_[slot];  // of an erased voxel, or never used
+    require(voxels_.holds(slot) && cell.hits == 0 && !cell.stale && !cell.selected);
   }
 }
 
 size_t MomentLevel::selectedSurfaces() const {
   size_t count = 0;
-  for (uint32_t slot = 0; slot < size(); ++slot) count += cells_[slot].selected ? 1 : 0;
+  for (uint32_t slot = 0; slot < size(); ++slot) {
+    count += hasCell(slot) && cells_[slot].selected ? 1 : 0;
+  }
   return count;
+}
+
+size_t MomentLevel::bytes() const {
+  return cells_.bytes() + voxels_.bytes() +
+         (stale_.capacity() + stale_unselected_.capacity()) * sizeof(uint32_t);
 }
 
 }  // namespace edgevox

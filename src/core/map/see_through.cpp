@@ -69,14 +69,17 @@ void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
   for (const VoxelIndex& v : scan_.cleared) remove(v);
 }
 
+/// What lies in frozen regions is left alone: they are out of reach.
 void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
+  const int32_t block = hit_grid_.findBlock(coarser(parent, 2));
+  if (block == BlockTable::kNone) return;
   const uint32_t parent_slot = match_map_.surfaces(1).slotOf(parent);
-  if (moments(1).cell(parent_slot).last_scan == scans_)
+  const bool known = parent_slot != SurfaceLevel::kNone;  // else thawed and not hit again
+  if (known && moments(1).cell(parent_slot).last_scan == scans_)
     return;  // then all its children are hit or beside
-  const auto block = static_cast<size_t>(hit_grid_.findBlock(coarser(parent, 2)));
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex v = child(parent, i);
-    const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(block), v);
+    const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(static_cast<size_t>(block)), v);
     if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
     if (!isSeenThrough(ray, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
     Hit& hit = hits_.edit(slot);
@@ -90,7 +93,8 @@ void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
 bool MapBuilder::isSeenThrough(const Ray& ray, uint32_t parent_slot,
                                const Eigen::Vector3d& point) const {
   if (!ray.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
-  const Eigen::Vector3d normal = moments(1).normal(parent_slot);
+  const Eigen::Vector3d normal =
+      parent_slot == SurfaceLevel::kNone ? Eigen::Vector3d::Zero() : moments(1).normal(parent_slot);
   return normal.isZero() ? ray.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
                          : ray.crosses(point, normal, kBehind * voxel_size_);
 }
@@ -105,24 +109,26 @@ bool MapBuilder::isHitBeside(const VoxelIndex& v) const {
 }
 
 void MapBuilder::remove(const VoxelIndex& v) {
+  thawAround(v);
   if (hit_voxels_.reset(v)) {
     changed_.set(v);
     ++cleared_count_;
   }
   edge_candidates_.reset(v);
-  if (match_map_.edgeVoxels().reset(v)) countEdge(1, coarser(v, 1), -1);
+  if (match_map_.edgeVoxels().reset(v)) countEdges(1, coarser(v, 1));
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    touch(l, match_map_.surfaces(l).slotOf(coarser(v, l)));
+    const uint32_t slot = match_map_.surfaces(l).slotOf(coarser(v, l));
+    if (slot != SurfaceLevel::kNone) touch(l, slot);
   }
   subtractMoments(v);
-  const uint32_t slot = hit_grid_.find(v);
-  hits_.edit(slot) = {};
-  free_hits_.push_back(slot);
+  dropHit(hit_grid_.find(v));
   hit_grid_.erase(v);
   VoxelIndex at = coarser(v, 1);
   bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
   for (int l = 1; !left; ++l) {
-    if (l <= MatchMap::kSurfaceLevels) momentLevel(l).erase(at, match_map_.surfaces(l));
+    if (l <= MatchMap::kSurfaceLevels && match_map_.surfaces(l).slotOf(at) != SurfaceLevel::kNone) {
+      momentLevel(l).erase(at, match_map_.surfaces(l));
+    }
     BitGrid<8>& bits = match_map_.occupied(l);
     bits.reset(at);
     if (l + 1 == levels()) return;
@@ -139,7 +145,7 @@ void MapBuilder::subtractMoments(const VoxelIndex& v) {
   const VoxelIndex parent = coarser(v, 1);
   const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
   const uint32_t slot = match_map_.surfaces(1).slotOf(parent);
-  if (match_map_.surfaces(1).hasBack(slot)) return;
+  if (slot == SurfaceLevel::kNone || match_map_.surfaces(1).hasBack(slot)) return;
   Moments all;
   Moments left;
   for (int i = 0; i < kChildren; ++i) {
@@ -149,6 +155,7 @@ void MapBuilder::subtractMoments(const VoxelIndex& v) {
     all += of_child;
     if (c != v) left += of_child;
   }
+  if (all.count != moments(1).cell(slot).count) return;  // thawed: not all is known of its children
   left.outer += left.count / all.count * (moments(1).moments(slot).outer - all.outer);
   momentLevel(1).setMoments(slot, left);
   for (int l = 2; l <= MatchMap::kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
@@ -161,12 +168,14 @@ void MapBuilder::sumChildren(int l, const VoxelIndex& v) {
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex c = child(v, i);
     const uint32_t slot = finer.slotOf(c);
-    if (slot == SlotGrid<8>::kNone) continue;
+    if (slot == SurfaceLevel::kNone && isHitWithin(c, l - 1)) return;
+    if (slot == SurfaceLevel::kNone) continue;
     if (finer.hasBack(slot)) return;
     sum += moments(l - 1).moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
   }
   const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  if (!match_map_.surfaces(l).hasBack(slot)) momentLevel(l).setMoments(slot, sum);
+  if (slot == SurfaceLevel::kNone || match_map_.surfaces(l).hasBack(slot)) return;
+  momentLevel(l).setMoments(slot, sum);
 }
 
 }  // namespace edgevox

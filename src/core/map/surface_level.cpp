@@ -54,25 +54,28 @@ const Surface* SurfaceLevel::nearest(const Around& around, const Eigen::Vector3f
   return best;
 }
 
-uint32_t SurfaceLevel::nextSlot() const {
-  return free_.empty() ? static_cast<uint32_t>(surfaces_.size()) : free_.back();
-}
-
-uint32_t SurfaceLevel::takeSlot() {
-  const uint32_t slot = nextSlot();
-  free_.empty() ? static_cast<void>(surfaces_.grow()) : free_.pop_back();
+uint32_t SurfaceLevel::takeSlot(Slots::Kind kind) {
+  const uint32_t slot = slots_.take(kind);
+  surfaces_.hold(slot) = {};
   return slot;
 }
 
+void SurfaceLevel::giveBack(uint32_t slot) {
+  surfaces_.edit(slot) = {};
+  slots_.giveBack(slot);
+  slots_.dropIfFree(slot, surfaces_);
+}
+
 uint32_t SurfaceLevel::insert(const VoxelIndex& v) {
-  const uint32_t slot = grid_.insert(v, nextSlot());
-  if (slot == nextSlot()) takeSlot();
+  const uint32_t next = slots_.next(Slots::kNear);
+  const uint32_t slot = grid_.insert(v, next);
+  if (slot == next) takeSlot(Slots::kNear);
   while (selected_.size() < grid_.blockCount()) selected_.grow();
   return slot;
 }
 
 uint32_t SurfaceLevel::insertBack(uint32_t slot) {
-  const uint32_t back = takeSlot();
+  const uint32_t back = takeSlot(Slots::kNear);
   surfaces_.edit(slot).back_surface = back;
   return back;
 }
@@ -81,8 +84,7 @@ void SurfaceLevel::erase(const VoxelIndex& v) {
   setSelected(v, false);
   for (uint32_t slot = slotOf(v); slot != kNone;) {
     const uint32_t next = surfaces_[slot].back_surface;
-    surfaces_.edit(slot) = {};
-    free_.push_back(slot);
+    giveBack(slot);
     slot = next;
   }
   grid_.erase(v);
@@ -92,6 +94,28 @@ bool SurfaceLevel::isSelected(const VoxelIndex& v) const {
   const int32_t block = grid_.findBlock(Grid::Layout::block(v));
   return block != BlockTable::kNone &&
          selected_[static_cast<size_t>(block)].test(Grid::Layout::cell(v));
+}
+
+void SurfaceLevel::move(const VoxelIndex& v, Slots::Kind to) {
+  uint32_t before = kNone;  // slot of the surface that leads to the next
+  for (uint32_t from = slotOf(v); from != kNone;) {
+    const Surface surface = surfaces_[from];
+    const uint32_t slot = takeSlot(to);
+    surfaces_.edit(slot) = surface;
+    giveBack(from);
+    if (before == kNone) {
+      grid_.setSlot(v, slot);
+    } else {
+      surfaces_.edit(before).back_surface = slot;
+    }
+    before = slot;
+    from = surface.back_surface;
+  }
+}
+
+void SurfaceLevel::shrinkBlock(const VoxelIndex& block) {
+  const int32_t found = grid_.findBlock(block);
+  if (found != BlockTable::kNone) grid_.shrinkBlock(static_cast<size_t>(found));
 }
 
 void SurfaceLevel::setSelected(const VoxelIndex& v, bool selected) {
@@ -109,18 +133,34 @@ void SurfaceLevel::checkRead() {
   for (size_t block = 0; block < selected_.size(); ++block) {
     if (!selected_[block].isSubsetOf(grid_.block(block).occupied)) fail();
     selected_count_ += selected_[block].count();
-    grid_.forEachInBlock(block, [&](uint32_t slot) {
-      if (slot >= slotCount()) fail();
-      const uint32_t back = surfaces_[slot].back_surface;
-      if (back == kNone) return;
-      if (back >= slotCount() || back == slot || hasBack(back)) fail();
-    });
   }
-  if (std::any_of(free_.begin(), free_.end(), [this](uint32_t s) { return s >= slotCount(); })) {
-    fail();
-  }
+  slots_.checkRead(slotsInUse());
 }
 
-size_t SurfaceLevel::bytes() const { return grid_.bytes() + selected_.bytes() + surfaces_.bytes(); }
+/// Throws ArchiveError if a slot has no surface or is in use twice.
+std::vector<bool> SurfaceLevel::slotsInUse() const {
+  std::vector<bool> used(slots_.end());
+  forEachVoxel([&](const VoxelIndex&, uint32_t first) {
+    for (uint32_t slot = first; slot != kNone; slot = surfaces_[slot].back_surface) {
+      if (slot >= slots_.end() || !surfaces_.holds(slot) || used[slot]) {
+        throw ArchiveError("a voxel has no surface of its own");
+      }
+      used[slot] = true;
+      if (slot != first && (hasBack(slot) || slots_.kindOf(slot) != slots_.kindOf(first))) {
+        throw ArchiveError("a surface has a wrong back");
+      }
+    }
+  });
+  return used;
+}
+
+size_t SurfaceLevel::bytes() const {
+  return grid_.bytes() + selected_.bytes() + surfaces_.bytes() + slots_.bytes();
+}
+
+size_t SurfaceLevel::freeBytes() const {
+  const size_t surfaces = slots_.freeCount(Slots::kNear) + slots_.freeCount(Slots::kFar);
+  return grid_.freeBytes() + surfaces * sizeof(Surface);
+}
 
 }  // namespace edgevox

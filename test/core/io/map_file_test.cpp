@@ -53,11 +53,12 @@ std::string stateOf(const Mapper& mapper) {
 
 class Saved : public ::testing::TestWithParam<Representation> {};
 
-TEST_P(Saved, FullMapsGoOnAsIfTheyHadNeverStopped) {
-  const Config config = withRepresentation(GetParam());
+/// Writes and reads a map after kStop scans; gives the one that was not stopped.
+Mapper stopAndGoOn(const Config& config) {
   Mapper whole(config);
   mapScans(0, kStop, whole);
   const std::string bytes = mapFileBytes(MapContent::kFull, whole, config, "map");
+  const size_t frozen = whole.map().frozenRegions();
   mapScans(kStop, kScans, whole);
 
   const MapFile file(bytes, "test");
@@ -65,9 +66,45 @@ TEST_P(Saved, FullMapsGoOnAsIfTheyHadNeverStopped) {
   Mapper resumed(config);
   file.requireSameMap(config);
   file.restore(resumed);
-  EXPECT_EQ(bytes, mapFileBytes(MapContent::kFull, resumed, config, "map"));
-  for (size_t i = kStop; i < kScans; ++i) ASSERT_TRUE(resumed.process(scans()[i]).located());
-  EXPECT_EQ(stateOf(whole), stateOf(resumed));
+  EXPECT_EQ(frozen, resumed.map().frozenRegions());
+  EXPECT_TRUE(bytes == mapFileBytes(MapContent::kFull, resumed, config, "map"));
+  mapScans(kStop, kScans, resumed);
+  EXPECT_TRUE(stateOf(whole) == stateOf(resumed));
+  return whole;
+}
+
+TEST_P(Saved, FullMapsGoOnAsIfTheyHadNeverStopped) { stopAndGoOn(withRepresentation(GetParam())); }
+
+/// Places that no scan has just touched freeze at once, but those next to the sensor.
+Config freezingAtOnce(Representation representation) {
+  Config config = withRepresentation(representation);
+  config.voxelizer.max_range = 1.0;
+  config.map.freeze_after = 1;
+  config.map.label_every = 2;
+  return config;
+}
+
+TEST_P(Saved, FrozenPlacesGoOnAsIfTheyHadNeverStopped) {
+  Config config = freezingAtOnce(GetParam());
+  config.map.clear_after = 3;
+  const Mapper mapper = stopAndGoOn(config);
+  EXPECT_LT(0U, mapper.map().frozenRegions());
+  EXPECT_LT(0U, mapper.map().thawedRegions());
+}
+
+TEST_P(Saved, FrozenPlacesAreInMapsOfBothKinds) {
+  const Config config = freezingAtOnce(GetParam());
+  Mapper mapper(config);
+  mapScans(0, kStop, mapper);
+  mapper.finishLabels();
+  ASSERT_LT(0U, mapper.map().frozenVoxels());
+  for (const MapContent content : {MapContent::kCompact, MapContent::kFull}) {
+    const MapFile file(mapFileBytes(content, mapper, config, "map"), "test");
+    const MatchMap map = file.matchMap();
+    EXPECT_EQ(mapper.map().hitVoxelCount(), file.head().occupied_voxels);
+    EXPECT_EQ(mapper.map().hitVoxelCount(), map.hitVoxels().voxelCount());
+    EXPECT_EQ(mapper.map().edgeVoxels().voxelCount(), map.edges().size());
+  }
 }
 
 /// Poses in a map that stays as it is.

@@ -18,6 +18,9 @@ namespace {
 
 constexpr int kScans = 24;
 constexpr size_t kHalf = 12;
+constexpr double kRange = 5.0;  // [m]
+
+Eigen::Vector3d roomOf(size_t scan) { return {scan / 5 % 2 == 0 ? 0.0 : 30.0, 0.0, 0.0}; }
 
 /// All that can be read of a map, bit for bit.
 class Content {
@@ -28,10 +31,10 @@ class Content {
     for (int level = 1; level < map.levels(); ++level) {
       for (const VoxelIndex& v : voxelsOf(map.matchMap().occupied(level))) {
         add(v, Eigen::Vector3d::Zero());
-        if (level <= MapBuilder::kSurfaceLevels) addSurfaces(map, level, v);
+        if (level <= MatchMap::kSurfaceLevels) addSurfaces(map, level, v);
       }
     }
-    add(map.packedBytes());
+    for (const size_t n : {map.hitVoxelCount(), map.frozenRegions(), map.thawedRegions()}) add(n);
   }
 
   bool operator==(const Content& other) const { return bytes_ == other.bytes_; }
@@ -53,12 +56,8 @@ class Content {
     const uint32_t first = surfaces.slotOf(v);
     for (uint32_t slot = first; slot != Surface::kNone;
          slot = surfaces.surface(slot).back_surface) {
-      const MomentLevel::Cell& cell = map.moments(level).cell(slot);
-      for (const auto& sums : {cell.sum, cell.view}) add(sums);
-      add(cell.outer);
-      for (const uint32_t n : {cell.count, uint32_t{cell.hits}, uint32_t{cell.edge_children}})
-        add(n);
-      for (const bool flag : {cell.anchor, cell.stale, cell.is_back, cell.selected}) add(flag);
+      add(map.moments(level).hasCell(slot));
+      if (map.moments(level).hasCell(slot)) addCell(map.moments(level).cell(slot));
       const Surface& surface = surfaces.surface(slot);
       add(surface.information);
       for (int i = 0; i < 3; ++i) {
@@ -68,31 +67,49 @@ class Content {
     }
   }
 
+  void addCell(const MomentLevel::Cell& cell) {
+    for (const auto& sums : {cell.sum, cell.view}) add(sums);
+    add(cell.outer);
+    for (const uint32_t n : {cell.count, uint32_t{cell.hits}, uint32_t{cell.edge_children}}) add(n);
+    for (const bool flag : {cell.anchor, cell.stale, cell.is_back, cell.selected}) add(flag);
+  }
+
   std::vector<char> bytes_;
 };
 
-MapConfig configOf(Representation representation, int clear_after) {
+MapConfig configOf(Representation representation, int clear_after, int freeze_after = 0) {
   MapConfig config;
+  config.coarsest_voxel = 3.2;
   config.representation = representation;
   config.clear_after = clear_after;
+  config.freeze_after = freeze_after;
   config.label_every = 2;
   return config;
 }
 
 MapBuilder makeMap(const MapConfig& config) {
-  return MapBuilder(kScanMapVoxel, 3.2, config, {}, 1);
+  return MapBuilder(kScanMapVoxel, config, {}, 1, kRange);
+}
+
+/// Two rooms out of reach of one another, in turn.
+std::vector<Centroids> scansOfRooms(uint32_t seed) {
+  std::vector<Centroids> scans = randomScans(seed, kScans);
+  for (size_t i = 0; i < scans.size(); ++i) {
+    for (Eigen::Vector3d& point : scans[i]) point += roomOf(i);
+  }
+  return scans;
 }
 
 /// From within the scene, so that surfaces are seen from both sides and voxels through others.
 void insert(const std::vector<Centroids>& scans, size_t begin, size_t end, MapBuilder& map) {
   for (size_t i = begin; i < end; ++i) {
-    map.insert(scans[i], {1.0 + 0.1 * static_cast<double>(i), 1.5, 1.0});
+    map.insert(scans[i], roomOf(i) + Eigen::Vector3d(1.0 + 0.1 * static_cast<double>(i), 1.5, 1.0));
   }
 }
 
 class Snapshot : public ::testing::TestWithParam<MapConfig> {
  protected:
-  const std::vector<Centroids> scans_ = randomScans(11, kScans);
+  const std::vector<Centroids> scans_ = scansOfRooms(11);
 };
 
 TEST_P(Snapshot, StaysAsItWasAndItsOriginGoesOnAsIfThereWereNone) {
@@ -110,6 +127,8 @@ TEST_P(Snapshot, StaysAsItWasAndItsOriginGoesOnAsIfThereWereNone) {
     insert(scans_, i, i + 1, map);
     if (i % 3 == 2) snapshots.push_back(map);
   }
+  EXPECT_EQ(GetParam().freeze_after > 0, map.frozenRegions() > 0);
+  EXPECT_EQ(GetParam().freeze_after > 0, map.thawedRegions() > 0);
   EXPECT_TRUE(Content(map) == end);
   EXPECT_EQ(alone.bytes(), map.bytes()) << "by which a map is full";
   MapBuilder& then = snapshots[kHalf / 3 - 1];
@@ -149,14 +168,16 @@ TEST_P(Snapshot, IsReadAndLabelledWhileItsOriginGoesOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Snapshot,
-                         ::testing::Values(configOf(Representation::kEdges, 0),
-                                           configOf(Representation::kEdges, 3),
+                         ::testing::Values(configOf(Representation::kSparse, 0),
+                                           configOf(Representation::kSparse, 3),
+                                           configOf(Representation::kSparse, 3, 2),
                                            configOf(Representation::kAll, 0),
-                                           configOf(Representation::kRandom, 0)));
+                                           configOf(Representation::kRandom, 0),
+                                           configOf(Representation::kEdges, 0, 2)));
 
 TEST(ChangedBlocks, AreThoseThatDifferAndNoOthers) {
   const std::vector<Centroids> scans = randomScans(12, kScans);
-  MapBuilder map = makeMap(configOf(Representation::kEdges, 0));
+  MapBuilder map = makeMap(configOf(Representation::kSparse, 0));
   insert(scans, 0, kHalf, map);
   const BitGrid<16> before = map.edgeVoxels();
   size_t changed = 0;
