@@ -5,16 +5,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/grid/dilate.hpp"
 #include "core/map/edge_children.hpp"
-#include "core/sort_unique.hpp"
 
 namespace edgevox {
 namespace {
 
 constexpr size_t kMegabyte = 1000000;
-constexpr size_t kNoBlock = static_cast<size_t>(BlockTable::kNone);  // what was there is gone
-constexpr double kNewShare = 0.25;  // of the voxels that came since the last choice of anchors
 
 }  // namespace
 
@@ -74,11 +70,6 @@ void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
   }
 }
 
-bool MapBuilder::labelDue() const {
-  return config_.representation != Representation::kAll &&
-         scans_ % static_cast<uint32_t>(config_.label_every) == 0;
-}
-
 uint32_t MapBuilder::hitSlot(const VoxelIndex& v) {
   const uint32_t next = hit_slots_.next(Slots::kNear);
   const uint32_t slot = hit_grid_.insert(v, next);
@@ -129,121 +120,9 @@ void MapBuilder::addMoments(int l) {
   }
 }
 
-void MapBuilder::selectNew(int l, uint32_t slot) {
-  MomentLevel& level = momentLevel(l);
-  if (config_.representation == Representation::kAll) select(l, slot, true);
-  if (config_.representation == Representation::kSparse) {
-    level.editCell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
-    select(l, slot, level.cell(slot).anchor);
-  }
-  if (config_.representation == Representation::kRandom) {
-    select(l, slot, unitHash(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
-  }
-}
-
 void MapBuilder::markOccupied(const VoxelIndex& v) {
   for (int l = 1; l < levels(); ++l) {
     if (!match_map_.occupied(l).set(coarser(v, l - 1))) return;
-  }
-}
-
-/// A thawed voxel without a cell is passed over: the coarser one may have one.
-void MapBuilder::countEdges(int l, const VoxelIndex& v) {
-  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  if (slot != SurfaceLevel::kNone) {
-    const uint8_t before = moments(l).cell(slot).edge_children;
-    const uint8_t now = edgeChildrenOf(edgeVoxels(), l, v);
-    if (now != before) momentLevel(l).editCell(slot).edge_children = now;
-    if ((now != 0) == (before != 0)) return;
-    touch(l, slot);
-  }
-  if (l < MatchMap::kSurfaceLevels) countEdges(l + 1, coarser(v, 1));
-}
-
-void MapBuilder::touch(int l, uint32_t slot) {
-  if (config_.representation == Representation::kAll) return;
-  touched_[static_cast<size_t>(l - 1)].push_back(slot);
-}
-
-void MapBuilder::chooseAnchorsAnew() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    MomentLevel& level = momentLevel(l);
-    const SurfaceLevel& surfaces = match_map_.surfaces(l);
-    auto& slots = touched_[static_cast<size_t>(l - 1)];
-    sortUnique(slots);
-    std::vector<size_t> blocks(slots.size());
-    for (size_t i = 0; i < slots.size(); ++i) {
-      blocks[i] = kNoBlock;
-      if (!level.hasCell(slots[i])) continue;
-      if (level.cell(slots[i]).hits >= config_.min_hits) level.findFlatAxis(slots[i]);
-      blocks[i] = surfaces.blockOf(level.voxel(slots[i]));
-    }
-    slots.clear();
-    sortUnique(blocks);
-    if (!blocks.empty() && blocks.back() == kNoBlock) blocks.pop_back();
-    const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
-    for (const size_t block : blocks) {
-      chooseAnchors(level, surfaces, block, {count, config_.min_hits});
-      if (config_.representation != Representation::kSparse) continue;
-      surfaces.forEachInBlock(block,
-                              [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });
-    }
-  }
-}
-
-void MapBuilder::label() {
-  BitGrid<16> relabelled;
-  Dilation<16>(labeller_.reach(), hit_voxels_, relabelled).add(changed_);
-  changed_.clear();
-  labeller_.label(hit_voxels_, relabelled, edge_candidates_);
-  BitGrid<16> targets;
-  Dilation<16>(1, hit_voxels_, targets).add(relabelled);
-  BitGrid<16>& edges = match_map_.edgeVoxels();
-  std::vector<BitGrid<16>::Block> before(targets.blockCount());
-  for (size_t slot = 0; slot < before.size(); ++slot) {
-    const auto* known = edges.findBlock(targets.blockIndex(slot));
-    before[slot] = known == nullptr ? BitGrid<16>::Block{} : *known;
-  }
-  thinEdges(edge_candidates_, targets, edge_neighbours_, edges);
-  changeEdges(targets, before);
-  if (config_.representation == Representation::kEdges) return selectEdges();
-  chooseAnchorsAnew();
-  if (config_.representation == Representation::kRandom) selectRandom();
-}
-
-void MapBuilder::changeEdges(const BitGrid<16>& targets,
-                             const std::vector<BitGrid<16>::Block>& before) {
-  for (size_t slot = 0; slot < before.size(); ++slot) {
-    const VoxelIndex& block = targets.blockIndex(slot);
-    const auto* now = edgeVoxels().findBlock(block);
-    if (now == nullptr) continue;
-    BitGrid<16>::Block differs;
-    for (size_t row = 0; row < now->size(); ++row) {
-      differs[row] = static_cast<uint16_t>((*now)[row] ^ before[slot][row]);
-    }
-    BitGrid<16>::forEachInBlock(block, differs,
-                                [&](const VoxelIndex& v) { countEdges(1, coarser(v, 1)); });
-  }
-}
-
-void MapBuilder::selectRandom() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const MomentLevel& level = moments(l);
-    size_t anchors = 0;
-    size_t candidates = 0;
-    for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (!level.hasCell(slot) || level.cell(slot).is_back) continue;
-      anchors += level.cell(slot).anchor ? 1 : 0;
-      candidates += level.cell(slot).hits >= config_.min_hits ? 1 : 0;
-    }
-    double& share = random_share_[static_cast<size_t>(l - 1)];
-    share = static_cast<double>(anchors) / static_cast<double>(candidates);
-    for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (!level.hasCell(slot)) continue;
-      const MomentLevel::Cell& cell = level.cell(slot);
-      if (cell.is_back) continue;
-      select(l, slot, cell.hits >= config_.min_hits && unitHash(level.voxel(slot)) < share);
-    }
   }
 }
 

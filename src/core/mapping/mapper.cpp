@@ -9,8 +9,7 @@ Mapper::Mapper(const Config& config, Clock clock)
     : after_clock_jump_(config.mapper.after_clock_jump),
       clock_(clock),
       tracker_(config),
-      map_(config.voxel_size, config.map, config.edges, config.threads,
-           config.voxelizer.max_range),
+      map_(config.voxel_size, config.map, config.edges, config.threads, config.voxelizer.max_range),
       recent_edges_(config.voxel_size, config.edges, config.mapper.edge_window, config.threads) {}
 
 ScanResult Mapper::process(const VoxelScan& scan, const ScanPrior& prior) {

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the map says of edge voxels.
+// The map as it is saved.
 #include <algorithm>
 
 #include "core/map/voxel_tree.hpp"
-#include "core/sort_unique.hpp"
 #include "edgevox/edges/edge_direction.hpp"
 #include "edgevox/map/map_builder.hpp"
 
 namespace edgevox {
-
-/// Chooses anew among the voxels that were hit, or that hold edges or no longer do, since the last
-/// choice.
-void MapBuilder::selectEdges() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    auto& slots = touched_[static_cast<size_t>(l - 1)];
-    sortUnique(slots);
-    for (const uint32_t slot : slots) {
-      if (!moments(l).hasCell(slot) || moments(l).cell(slot).is_back) continue;
-      select(l, slot, moments(l).cell(slot).edge_children > 0);
-    }
-    slots.clear();
-  }
-}
 
 MatchMap MapBuilder::completeMap() const {
   MatchMap map = match_map_;
