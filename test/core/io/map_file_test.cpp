@@ -95,7 +95,10 @@ TEST_P(Saved, FrozenPlacesGoOnAsIfTheyHadNeverStopped) {
 TEST_P(Saved, FrozenPlacesAreInMapsOfBothKinds) {
   const Config config = freezingAtOnce(GetParam());
   Mapper mapper(config);
-  mapScans(0, kStop, mapper);
+  size_t scan = 0;
+  while (scan < kStop || (scan < kScans && mapper.map().frozenVoxels() == 0)) {
+    mapper.process(scans()[scan++]);
+  }
   mapper.finishLabels();
   ASSERT_LT(0U, mapper.map().frozenVoxels());
   for (const MapContent content : {MapContent::kCompact, MapContent::kFull}) {
