@@ -191,13 +191,13 @@ Report errorsReport(const TrajectoryErrors& errors) {
   return report;
 }
 
-Report summarise(const RunRecord& run, const MapBuilder* map, size_t map_bytes,
+Report summarise(const RunRecord& run, const MapBuilder* map, const RunSize& size,
                  const std::optional<TrajectoryErrors>& errors) {
   Report report;
   addScans(run, report);
   addTimes(run.scans, report);
-  if (map != nullptr) addMap(*map, map_bytes, report);
-  report.add("peak_rss_mb", peakMegabytes());
+  if (map != nullptr) addMap(*map, size.map_bytes, report);
+  report.add("peak_rss_mb", size.peak_rss_mb);
   if (errors) report.append(errorsReport(*errors));
   addPoints(run, report);
   return report;
@@ -213,8 +213,10 @@ void makeFolder(const fs::path& folder) {
 
 Report writeRun(const fs::path& folder, const RunResults& results) {
   const MapBuilder* map = results.mapper == nullptr ? nullptr : &results.mapper->map();
+  const double peak_rss_mb = peakMegabytes();
   const MapFiles maps = mapFilesOf(results);
-  const Report summary = summarise(results.run, map, maps.compact_bytes, results.errors);
+  const Report summary =
+      summarise(results.run, map, {maps.compact_bytes, peak_rss_mb}, results.errors);
   makeFolder(folder);
   RunFolder files(folder);
   writeFile(files.stage("config.yaml"), yamlText(results.config));

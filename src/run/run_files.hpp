@@ -23,8 +23,13 @@ std::string errorsCsv(const TrajectoryErrors& errors);
 /// The errors in a few numbers.
 Report errorsReport(const TrajectoryErrors& errors);
 
-/// The map, if there is one, with its labels up to date; `map_bytes`: of its compact file.
-Report summarise(const RunRecord& run, const MapBuilder* map, size_t map_bytes,
+struct RunSize {
+  size_t map_bytes = 0;      ///< of the map's compact file
+  double peak_rss_mb = 0.0;  ///< of the process, before files were written
+};
+
+/// The run, and the map, if there is one, with its labels up to date, in a few numbers.
+Report summarise(const RunRecord& run, const MapBuilder* map, const RunSize& size,
                  const std::optional<TrajectoryErrors>& errors = std::nullopt);
 
 /// Makes the folder with all folders above it. Throws FileError.

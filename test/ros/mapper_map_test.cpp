@@ -149,7 +149,7 @@ TEST_F(MapTest, IsShownByUpdates) {
   updates = std::make_unique<Updates>(resolved("map_boxes_update"));
   EXPECT_TRUE(eventually([&] { return isShown(mapOf(scans()), *updates); })) << "joined late";
   call<std_srvs::Trigger>("reset");
-  EXPECT_TRUE(eventually([&] { return isShown(MapBuilder(0.2, 6.4, {}, {}, 1), *updates); }));
+  EXPECT_TRUE(eventually([&] { return isShown(MapBuilder(0.2, {}, {}, 1), *updates); }));
   map(firstScans(kMiddle));
   EXPECT_TRUE(eventually([&] { return isShown(mapOf(firstScans(kMiddle)), *updates); }));
 }

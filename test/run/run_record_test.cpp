@@ -17,7 +17,7 @@ PipelineResult located(double stamp) {
   result.scan.stamp = stamp;
   result.points = 5;
   result.scan_voxels = 4;
-  result.voxelize = 0.001;
+  result.scan.times.voxelize = 0.001F;
   return result;
 }
 
@@ -26,14 +26,14 @@ TEST(RunRecord, LeavesOutTheTimeOfEdgesThatNobodyHasExtracted) {
   run.add(0, located(1), Pose::Identity(), 0.01);
   PipelineResult with_edges = located(2);
   with_edges.edges = EdgeCount{100, 20, 5};
-  with_edges.extract = 0.002;
+  with_edges.scan.times.extract = 0.002F;
   run.add(1, with_edges, Pose::Identity(), 0.01, 0.02);
   const std::string csv = timingsCsv(run.scans);
   EXPECT_EQ(csv.substr(csv.find('\n') + 1),
             "0,1.000000,tracked,0.0000,5,4,1.000,,0.000,0.000,0.000,10.000,\n"
             "1,2.000000,tracked,0.0000,5,4,1.000,2.000,0.000,0.000,0.000,10.000,20.000\n");
-  const MapBuilder map(0.2, 3.2, {}, {}, 1);
-  const std::string summary = summarise(run, map).json();
+  const MapBuilder map(0.2, {}, {}, 1);
+  const std::string summary = summarise(run, &map, {}).json();
   EXPECT_NE(summary.find("\"sparse_share\": 0.05"), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"extract\": 2"), std::string::npos) << "of the one scan that has it";
 }
@@ -41,7 +41,7 @@ TEST(RunRecord, LeavesOutTheTimeOfEdgesThatNobodyHasExtracted) {
 TEST(RunRecord, SaysThatNoScanHadEdges) {
   RunRecord run;
   run.add(0, located(1), Pose::Identity(), 0.01);
-  const std::string summary = summarise(run, MapBuilder(0.2, 3.2, {}, {}, 1)).json();
+  const std::string summary = summarise(run, nullptr, {}).json();
   EXPECT_NE(summary.find("\"sparse_share\": null"), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"extract\": null"), std::string::npos) << summary;
 }
