@@ -66,7 +66,7 @@ Checksums readChecksums(const fs::path& file) {
   Checksums checksums;
   bool good = in.good();
   for (std::string line; good && std::getline(in, line);) {
-    good = isEntry(line);
+    good = isEntry(line) && !in.eof();  // a line without its end was cut
     if (good) checksums[line.substr(kNameAt)] = line.substr(0, kDigits);
   }
   if (good && in.eof()) return checksums;

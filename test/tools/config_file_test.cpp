@@ -69,8 +69,8 @@ TEST(ConfigFile, badValuesAreNamed) {
   expectYamlError("voxel_size: wide\n", {"'voxel_size' is 'wide'"});
   expectYamlError("voxel_size: .nan\n", {"'voxel_size'"});
   expectYamlError("threads: 1.5\n", {"'threads' is '1.5'", "whole number"});
-  expectYamlError("\nmap: {representation: edges}\n",
-                  {"line 2", "'map/representation' is 'edges'", "sparse, all, random"});
+  expectYamlError("\nmap: {representation: flat}\n",
+                  {"line 2", "'map/representation' is 'flat'", "sparse, all, random, edges"});
   expectYamlError("voxel_size: [0.1]\n", {"'voxel_size'"});
   expectYamlError("voxel_size: {value: 0.1}\n", {"'voxel_size'"});
   expectYamlError("voxel_size:\n", {"'voxel_size' is ''"});

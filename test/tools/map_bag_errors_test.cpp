@@ -119,7 +119,7 @@ TEST_F(MapBagTest, aRunThatFailsLeavesTheResultsOfTheOneBefore) {
   writeBag({simulatedRun().clouds.front()});
   run();
   const auto before = contentsOf(options_.output);
-  EXPECT_EQ(before.size(), 7U);
+  EXPECT_EQ(before.size(), 8U);
   options_.settings = {"voxel_size=0.4"};
   options_.frames.base = "base_link";
   expectError<BagError>({"no_mounting 1"});
