@@ -58,18 +58,10 @@ inline VoxelIndex coarser(const VoxelIndex& v, int levels) {
   return {v.x >> levels, v.y >> levels, v.z >> levels};
 }
 
-/// Calls visit(child) for the 8^levels voxels in v that are 2^levels times smaller: x first, then
-/// y, z, in each halving.
-template <typename Visit>
-void forEachChild(const VoxelIndex& v, int levels, const Visit& visit) {
-  for (int i = 0; i < 8; ++i) {
-    const VoxelIndex child{2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
-    if (levels == 1) {
-      visit(child);
-    } else {
-      forEachChild(child, levels - 1, visit);
-    }
-  }
+/// The i-th of the kChildren voxels half as large in v: x first, then y, then z.
+constexpr int kChildren = 8;
+inline VoxelIndex childOf(const VoxelIndex& v, int i) {
+  return {2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
 }
 
 inline bool inGridRange(const VoxelIndex& v) {

@@ -185,6 +185,8 @@ class MapBuilder {
   void checkFrozen(const VoxelIndex& region, const FrozenRegion& frozen) const;
   /// Size of what is held less what will be used again.
   size_t usedBytes() const;
+  /// As configured.
+  size_t memoryBytes() const { return static_cast<size_t>(config_.memory) * 1000000; }
   MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
   void select(int level, uint32_t slot, bool selected) {
     momentLevel(level).select(slot, selected, match_map_.surfaces(level));

@@ -15,7 +15,6 @@ namespace {
 
 using Layout = BitGrid<16>::Layout;
 
-constexpr size_t kMegabyte = 1000000;
 constexpr uint32_t kRecent = 10;  // scans after whose touch no region freezes
 constexpr double kEnough = 0.9;   // of map/memory, down to which regions freeze
 constexpr size_t kCentroidBytes = FrozenRegion::kCentroidBytes;
@@ -76,7 +75,7 @@ void MapBuilder::freezeFar(const Eigen::Vector3d& sensor) {
     freezeAll(
         far_.untouched(sensor / voxel_size_, max_range_ / voxel_size_ + kDiagonal, scans_ - after));
   }
-  const double memory = static_cast<double>(config_.memory) * kMegabyte;
+  const auto memory = static_cast<double>(memoryBytes());
   if (scans_ <= kRecent || static_cast<double>(usedBytes()) < memory) return;
   const auto regions = far_.untouched(sensor / voxel_size_, 0.0, scans_ - kRecent);
   const auto enough = [&] { return static_cast<double>(usedBytes()) < kEnough * memory; };
@@ -217,9 +216,8 @@ bool MapBuilder::isFrozen(const VoxelIndex& v) const {
 
 bool MapBuilder::isHitWithin(const VoxelIndex& v, int level) const {
   if (level == 0) return hit_voxels_.test(v);
-  for (int i = 0; i < 8; ++i) {
-    const VoxelIndex child{2 * v.x + (i & 1), 2 * v.y + (i >> 1 & 1), 2 * v.z + (i >> 2)};
-    if (isHitWithin(child, level - 1)) return true;
+  for (int i = 0; i < kChildren; ++i) {
+    if (isHitWithin(childOf(v, i), level - 1)) return true;
   }
   return false;
 }

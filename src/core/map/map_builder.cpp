@@ -8,11 +8,6 @@
 #include "core/map/edge_children.hpp"
 
 namespace edgevox {
-namespace {
-
-constexpr size_t kMegabyte = 1000000;
-
-}  // namespace
 
 MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig& edges,
                        int threads, double max_range)
@@ -37,7 +32,7 @@ void MapBuilder::add(const std::vector<Eigen::Vector3d>& centroids, const Eigen:
   setPoints(centroids);
   leaveOutLone();
   freezeFar(sensor);
-  full_ = usedBytes() >= static_cast<size_t>(config_.memory) * kMegabyte;
+  full_ = usedBytes() >= memoryBytes();
   if (full_) leaveOutNew();
   for (const VoxelIndex& v : scan_.voxels) thawAround(v);
   addPoints(sensor);

@@ -13,16 +13,11 @@ constexpr size_t kLines = 8000;  // of sight a scan, in turn: bounds the time
 constexpr double kNear = 0.25;   // of a line from the centroid of a voxel it sees through [voxel]
 constexpr double kBehind = 1.0;  // of its end behind the surface [voxel]
 constexpr double kBehindRough = 2.0;  // the same where the surface is not flat
-constexpr int kChildren = 8;
-
-VoxelIndex child(const VoxelIndex& v, int i) {
-  return {2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
-}
 
 template <typename Test>
 bool anyChild(const VoxelIndex& v, const Test& test) {
   for (int i = 0; i < kChildren; ++i) {
-    if (test(child(v, i))) return true;
+    if (test(childOf(v, i))) return true;
   }
   return false;
 }
@@ -78,7 +73,7 @@ void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
   if (known && moments(1).cell(parent_slot).last_scan == scans_)
     return;  // then all its children are hit or beside
   for (int i = 0; i < kChildren; ++i) {
-    const VoxelIndex v = child(parent, i);
+    const VoxelIndex v = childOf(parent, i);
     const uint32_t slot = SlotGrid<8>::slotIn(hit_grid_.block(static_cast<size_t>(block)), v);
     if (slot == SlotGrid<8>::kNone || hits_[slot].last_pass == scans_) continue;
     if (!isSeenThrough(ray, parent_slot, centroidOf(slot, v)) || isHitBeside(v)) continue;
@@ -149,7 +144,7 @@ void MapBuilder::subtractMoments(const VoxelIndex& v) {
   Moments all;
   Moments left;
   for (int i = 0; i < kChildren; ++i) {
-    const VoxelIndex c = child(parent, i);
+    const VoxelIndex c = childOf(parent, i);
     if (!isHit(c)) continue;
     const Moments of_child = Moments::at(centroid(c) - origin, hits_[hit_grid_.find(c)].count);
     all += of_child;
@@ -166,7 +161,7 @@ void MapBuilder::sumChildren(int l, const VoxelIndex& v) {
   const Eigen::Vector3d origin = voxelCentre(v, voxelSize(l));
   Moments sum;
   for (int i = 0; i < kChildren; ++i) {
-    const VoxelIndex c = child(v, i);
+    const VoxelIndex c = childOf(v, i);
     const uint32_t slot = finer.slotOf(c);
     if (slot == SurfaceLevel::kNone && isHitWithin(c, l - 1)) return;
     if (slot == SurfaceLevel::kNone) continue;

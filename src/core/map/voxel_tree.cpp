@@ -9,13 +9,9 @@ namespace edgevox {
 namespace {
 
 constexpr int kLevels = 5;
-constexpr int kChildren = 8;
 
-int childOf(const VoxelIndex& v) { return (v.x & 1) | (v.y & 1) << 1 | (v.z & 1) << 2; }
-
-VoxelIndex child(const VoxelIndex& v, int i) {
-  return {2 * v.x + (i & 1), 2 * v.y + ((i >> 1) & 1), 2 * v.z + ((i >> 2) & 1)};
-}
+/// Which of its parent's children v is, as in childOf().
+int placeInParent(const VoxelIndex& v) { return (v.x & 1) | (v.y & 1) << 1 | (v.z & 1) << 2; }
 
 /// With the sign away, so that the order is that of unsigned numbers.
 uint32_t unsignedOf(int32_t i) { return static_cast<uint32_t>(i + kIndexLimit); }
@@ -56,7 +52,7 @@ VoxelTree::VoxelTree(const std::vector<VoxelIndex>& voxels) : children(kLevels) 
         parents.push_back(parent);
         masks.push_back('\0');
       }
-      masks.back() = static_cast<char>(masks.back() | 1 << childOf(v));
+      masks.back() = static_cast<char>(masks.back() | 1 << placeInParent(v));
     }
     level = std::move(parents);
   }
@@ -82,7 +78,7 @@ std::vector<VoxelIndex> VoxelTree::voxels() const {
     for (size_t i = 0; i < level.size(); ++i) {
       if (masks[i] == '\0') fail();
       for (int c = 0; c < kChildren; ++c) {
-        if (((masks[i] >> c) & 1) != 0) finer.push_back(child(level[i], c));
+        if (((masks[i] >> c) & 1) != 0) finer.push_back(childOf(level[i], c));
       }
     }
     level = std::move(finer);
