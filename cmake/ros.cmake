@@ -45,7 +45,7 @@ if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})
   target_include_directories(${PROJECT_NAME}_evaluation SYSTEM PRIVATE ${outer_include_dirs})
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
-    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree)
+    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree edgevox::tbb)
 endif()
 
 # src/tools/<tool>.cpp holds main()
@@ -77,5 +77,5 @@ install(DIRECTORY ${share_folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATIO
 # The other scripts work on the checkout and stay in it.
 #catkin_lint: ignore uninstalled_script
 install(PROGRAMS scripts/play_bag scripts/plot_edges scripts/plot_map scripts/plot_maps
-  scripts/plot_run
+  scripts/plot_run scripts/plot_trust
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

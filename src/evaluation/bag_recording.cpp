@@ -2,11 +2,9 @@
 #include "evaluation/bag_recording.hpp"
 
 #include <utility>
-#include <variant>
 
 #include "edgevox/io/trajectory_evaluation.hpp"
-#include "edgevox/mapping/pipeline.hpp"
-#include "ros/conversions/point_cloud.hpp"
+#include "evaluation/bag_clouds.hpp"
 #include "tools/bag_reader.hpp"
 
 namespace edgevox {
@@ -20,36 +18,12 @@ RecordedScan scanOf(const sensor_msgs::PointCloud2& message, const CloudView& vi
   return scan;
 }
 
-/// Calls visit(index, message, view) for the clouds of use. Throws BagError for a damaged bag.
-template <typename Visit>
-void forEachReadable(BagReader& bag, const Visit& visit) {
-  bag.forEachCloud([&](size_t index, const BagReader::ReadCloud& read) {
-    const BagCloud cloud = read();
-    if (!cloud.message) return;
-    const CloudReading reading = readCloud(*cloud.message);
-    const auto* checked = std::get_if<CheckedCloud>(&reading);
-    if (checked != nullptr) visit(index, *cloud.message, checked->view);
-  });
-  if (!bag.losses().empty()) throw BagError(textsOf(bag.losses()).front());
-}
-
 std::vector<RecordedScan> readScans(BagReader& bag, const RecordingOptions& options) {
   std::vector<RecordedScan> scans;
   forEachReadable(bag, [&](size_t index, const auto& message, const CloudView& view) {
     if (isWanted(index, scans.size(), options)) scans.push_back(scanOf(message, view));
   });
   return scans;
-}
-
-/// What Pipeline finds with the default configuration from all clouds of the bag.
-Trajectory trackedPoses(BagReader& bag) {
-  Pipeline pipeline((Config()));
-  Trajectory trajectory;
-  forEachReadable(bag, [&](size_t, const auto&, const CloudView& view) {
-    const ScanResult result = pipeline.process(view).scan;
-    if (result.located()) trajectory.push_back({view.stamp, result.T_map_sensor});
-  });
-  return trajectory;
 }
 
 Twist twistBetween(const StampedPose& from, const StampedPose& to) {

@@ -3,19 +3,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "edgevox/scan/motion.hpp"
-#include "edgevox/scan/voxelizer.hpp"
-#include "sim/movers.hpp"
-#include "sim/scanner.hpp"
-#include "sim/sensor.hpp"
-#include "sim/trajectory.hpp"
-#include "sim/world.hpp"
+#include "evaluation/recorded_scan.hpp"
+#include "evaluation/simulated_truth.hpp"
 
 namespace edgevox {
 
@@ -26,30 +20,6 @@ struct RecordingOptions {
   size_t first = 0;             ///< take the scan of this number, counted from 0, ...
   size_t every = 1;             ///< ... and every n-th from there on ...
   size_t most = 100;            ///< ... and so many at most
-};
-
-/// A cloud with its pose. It can be moved, not copied: the view shows its own bytes.
-struct RecordedScan {
-  RecordedScan() = default;
-  RecordedScan(RecordedScan&&) = default;
-  RecordedScan& operator=(RecordedScan&&) = default;
-
-  std::vector<uint8_t> bytes;
-  CloudView view;
-  Pose T_map_sensor = Pose::Identity();  ///< at the stamp
-  Twist before;                          ///< of the sensor, from the pose before to this one
-  Twist after;                           ///< from this pose to the next
-};
-
-/// A sweep as a cloud of x, y, z and time, without a pose.
-RecordedScan recordedScan(const sim::Scan& scan);
-
-/// What is known of a simulated recording only.
-struct SimulatedTruth {
-  sim::World world;
-  sim::Movers movers;    ///< empty: nothing moves
-  sim::Trajectory path;  ///< from stamp 0
-  sim::Sensor sensor;
 };
 
 struct Recording {
@@ -68,9 +38,6 @@ double endOf(const Recording& recording, size_t scan);
 
 /// Whether a scan is one of those to take, `taken` of which were before it.
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options);
-
-/// True if `input` has the form WORLD[+movers]:SENSOR[:SEED] and there is no such file.
-bool isSimulated(const std::string& input);
 
 /// Reads or simulates. Throws std::invalid_argument for an input or option that is wrong, BagError,
 /// FileError, TrajectoryError.

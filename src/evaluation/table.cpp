@@ -26,6 +26,10 @@ std::string markdownLine(const std::vector<std::string>& cells) {
 
 Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
+bool Table::isText(const std::string& value) {
+  return value.find_first_of(",\"|\n") == std::string::npos;
+}
+
 void Table::set(const std::string& column, double value) {
   const size_t position = positionOf(column);
   if (!std::isfinite(value)) return;
@@ -33,9 +37,7 @@ void Table::set(const std::string& column, double value) {
 }
 
 void Table::set(const std::string& column, const std::string& value) {
-  if (value.find_first_of(",\"|\n") != std::string::npos) {
-    throw std::invalid_argument("no text for a table: " + value);
-  }
+  if (!isText(value)) throw std::invalid_argument("no text for a table: " + value);
   rows_.back()[positionOf(column)] = {value, value};
 }
 

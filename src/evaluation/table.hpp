@@ -19,9 +19,11 @@ class Table {
   explicit Table(std::vector<Column> columns);
 
   void addRow() { rows_.emplace_back(columns_.size()); }
+  /// Whether it can be set: it holds no comma, quote, bar or line end.
+  static bool isText(const std::string& value);
   /// Sets a value in the last row. One that is not finite stays empty, as does one that is never
   /// set. Throws std::out_of_range for a column that is not known, std::invalid_argument for a text
-  /// that holds a comma, quote, bar or line end.
+  /// that cannot be set.
   void set(const std::string& column, double value);
   void set(const std::string& column, const std::string& value);
 

@@ -11,7 +11,9 @@ int run(const edgevox::Arguments& arguments) {
       "evaluate", "subject",
       {{"run", edgevox::evaluateRun, "the trajectory of a run against a reference"},
        {"edges", edgevox::evaluateEdges, "the extraction of edges from scans and into the map"},
-       {"map", edgevox::evaluateMap, "error and capture against the size of the map"}},
+       {"map", edgevox::evaluateMap, "error and capture against the size of the map"},
+       {"trust", edgevox::evaluateTrust,
+        "how many scans are right, wrong and lost, in many recordings"}},
       arguments);
 }
 

@@ -112,6 +112,54 @@ TEST_F(EvaluateTest, measuresEdgesOfOtherConfigurations) {
   EXPECT_NE(std::string::npos, unknown.output.find("map/hits")) << unknown.output;
 }
 
+TEST_F(EvaluateTest, countsRightWrongAndLostScans) {
+  const std::filesystem::path out = folder_ / "trust";
+  const Outcome outcome =
+      evaluateRun("trust --worlds corridor --beams 16 --seeds 1 --strides 1,8 --most 40 --output " +
+                  out.string());
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  const std::string text = contentOf(out / "trust.md");
+  EXPECT_NE(std::string::npos, text.find("| corridor | 16 | 1 | 40 | 100.00 | 0.00 | 0.00 |"))
+      << text;
+  EXPECT_NE(std::string::npos, text.find("| corridor | 16 | 8 | 5 | 100.00 | 0.00 | 0.00 |"))
+      << text;
+  EXPECT_NE(std::string::npos, outcome.output.find(text));
+  const std::string table = contentOf(out / "trust.csv");
+  EXPECT_NE(std::string::npos, table.find("\ncorridor:16:1,corridor,16,1,8,5,5,0,0,0,")) << table;
+  const bool drawn = std::filesystem::exists(out / "trust.png");
+  EXPECT_NE(drawn, outcome.output.find("trust.png was not drawn") != std::string::npos);
+}
+
+TEST_F(EvaluateTest, countsScansOfABagAgainstItsReference) {
+  writeBag(test::simulatedRun().clouds);
+  Trajectory wrong = test::simulatedRun().truth;
+  for (size_t i = 1; i < wrong.size(); ++i) wrong[i].pose.translation().x() += 1.0;
+  writeTum(folder_ / "wrong.tum", wrong);
+  const std::string out = (folder_ / "trust").string();
+  const Outcome outcome =
+      evaluateRun("trust --worlds none --strides 1 --output " + out + " --bag " + options_.bag +
+                  " " + options_.bag + "=" + (folder_ / "wrong.tum").string());
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  const std::string n = std::to_string(wrong.size());
+  const std::string others = std::to_string(wrong.size() - 1);
+  const std::string table = contentOf(folder_ / "trust" / "trust.csv");
+  EXPECT_NE(std::string::npos, table.find(",,,,1," + n + "," + n + ",0,0,0,")) << table;
+  EXPECT_NE(std::string::npos, table.find(",,,,1," + n + ",1," + others + ",0,0,")) << table;
+}
+
+TEST_F(EvaluateTest, refusesAMatrixOfNothing) {
+  const std::string output = " --output " + (folder_ / "trust").string();
+  const Outcome bag = evaluateRun("trust --worlds none --bag /none.bag=/none.tum" + output);
+  EXPECT_EQ(1, bag.exit_code);
+  EXPECT_NE(std::string::npos, bag.output.find("/none.bag")) << bag.output;
+  const Outcome seeds = evaluateRun("trust --worlds corridor --seeds 1-x" + output);
+  EXPECT_EQ(2, seeds.exit_code);
+  EXPECT_NE(std::string::npos, seeds.output.find("--seeds")) << seeds.output;
+  EXPECT_EQ(2, evaluateRun("trust --worlds castle" + output).exit_code);
+  EXPECT_EQ(2, evaluateRun("trust --worlds corridor --beams 17" + output).exit_code);
+  EXPECT_EQ(2, evaluateRun("trust --worlds none" + output).exit_code);
+}
+
 TEST_F(EvaluateTest, refusesEdgesOfNothing) {
   const std::string output = " --output " + (folder_ / "edges").string();
   const Outcome bag = evaluateRun("edges /none.bag" + output);

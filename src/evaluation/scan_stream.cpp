@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/scan_stream.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "edgevox/io/trajectory_evaluation.hpp"
+#include "evaluation/bag_clouds.hpp"
+#include "evaluation/simulated_truth.hpp"
+
+namespace edgevox {
+namespace {
+
+std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp) {
+  const auto matches = matchStamps({{stamp, Pose::Identity()}}, trajectory);
+  if (matches.empty()) return std::nullopt;
+  return trajectory[matches.front().reference].pose;
+}
+
+}  // namespace
+
+ScanStream simulatedStream(const std::string& input) {
+  const auto truth = std::make_shared<const SimulatedTruth>(simulatedTruth(input));
+  return [truth](size_t most, const VisitScan& visit) {
+    const auto sweeps = static_cast<size_t>(sim::countSweeps(truth->path, truth->sensor));
+    for (size_t sweep = 0; sweep < std::min(sweeps, most); ++sweep) {
+      const RecordedScan scan = simulatedScan(*truth, static_cast<int>(sweep));
+      visit(scan.view, scan.T_map_sensor);
+    }
+  };
+}
+
+ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses) {
+  BagReader(bag, "");  // throws now, not in the middle of a long run
+  const auto known =
+      std::make_shared<const Trajectory>(poses.empty() ? Trajectory() : readTum(poses));
+  return [=](size_t most, const VisitScan& visit) {
+    BagReader reader(bag, "");
+    const Trajectory trajectory = poses.empty() ? trackedPoses(reader) : *known;
+    forEachReadable(
+        reader,
+        [&](size_t, const auto&, const CloudView& view) {
+          visit(view, poseAt(trajectory, view.stamp));
+        },
+        most);
+  };
+}
+
+}  // namespace edgevox

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/scan/voxelizer.hpp"
+
+namespace edgevox {
+
+/// One scan and where the sensor truly was at its stamp, in any frame that stands still; no pose if
+/// that is not known.
+using VisitScan = std::function<void(const CloudView& cloud, const std::optional<Pose>& truth)>;
+
+/// Goes through the first `most` scans of a recording, of which one at a time is in memory. Safe to
+/// call from several threads.
+using ScanStream = std::function<void(size_t most, const VisitScan& visit)>;
+
+/// Of an input of the form WORLD[+movers]:SENSOR[:SEED]. Throws std::invalid_argument.
+ScanStream simulatedStream(const std::string& input);
+
+/// Of a bag and its sensor's trajectory, TUM format; without one, of the poses that the default
+/// configuration finds from all clouds. Throws BagError, FileError, TrajectoryError, and so does
+/// the stream.
+ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses);
+
+}  // namespace edgevox
