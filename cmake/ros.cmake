@@ -45,7 +45,9 @@ if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})
   target_include_directories(${PROJECT_NAME}_evaluation SYSTEM PRIVATE ${outer_include_dirs})
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
-    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree edgevox::tbb)
+    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree pcl_registration edgevox::tbb)
+  set_source_files_properties(src/evaluation/pcl_registration.cpp PROPERTIES
+    COMPILE_OPTIONS -Wno-array-bounds)  # in templates of PCL and Eigen, by gcc 12
 endif()
 
 # src/tools/<tool>.cpp holds main()

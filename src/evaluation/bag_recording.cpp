@@ -26,19 +26,6 @@ std::vector<RecordedScan> readScans(BagReader& bag, const RecordingOptions& opti
   return scans;
 }
 
-Twist twistBetween(const StampedPose& from, const StampedPose& to) {
-  return twistOf(from.pose.inverse() * to.pose, to.stamp - from.stamp);
-}
-
-void place(RecordedScan& scan, const Trajectory& trajectory, size_t at) {
-  scan.T_map_sensor = trajectory[at].pose;
-  const bool first = at == 0;
-  const bool last = at + 1 == trajectory.size();
-  if (!first) scan.before = twistBetween(trajectory[at - 1], trajectory[at]);
-  scan.after = last ? scan.before : twistBetween(trajectory[at], trajectory[at + 1]);
-  if (first) scan.before = scan.after;
-}
-
 Trajectory stampsOf(const std::vector<RecordedScan>& scans) {
   Trajectory stamps;
   for (const RecordedScan& scan : scans) stamps.push_back({scan.view.stamp, Pose::Identity()});
@@ -57,7 +44,7 @@ Recording readBagRecording(const RecordingOptions& options) {
                                            : "from " + options.poses.filename().string();
   for (const StampMatch& match : matchStamps(stampsOf(scans), trajectory)) {
     RecordedScan& scan = scans[match.estimate];
-    place(scan, trajectory, match.reference);
+    static_cast<SensorMotion&>(scan) = motionAt(trajectory, match.reference);
     recording.scans.push_back(std::move(scan));
   }
   recording.without_pose = scans.size() - recording.scans.size();

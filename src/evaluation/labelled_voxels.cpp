@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/labelled_voxels.hpp"
 
+#include "evaluation/placed_scan.hpp"
 #include "evaluation/share.hpp"
 
 namespace edgevox {
@@ -71,13 +72,8 @@ LabelledVoxels labelledVoxels(const MapBuilder& map, const Pose& T_map_grid) {
 
 std::vector<Eigen::Vector3d> placedCentroids(const Recording& recording, size_t scan,
                                              const VoxelScan& voxels) {
-  std::vector<Eigen::Vector3d> centroids;
-  centroids.reserve(voxels.voxels.size());
-  for (const ScanVoxel& voxel : voxels.voxels) {
-    const Pose T_map_then = recording.poseAt(scan, static_cast<double>(voxel.time_offset));
-    centroids.push_back(T_map_then * voxel.centroid.cast<double>());
-  }
-  return centroids;
+  return placedCentroids(voxels,
+                         [&](double time_offset) { return recording.poseAt(scan, time_offset); });
 }
 
 Cells cellsOf(const LabelledVoxels& voxels, const Pose& T_map_grid) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/map_measures.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "core/scan/scan_sample.hpp"
@@ -10,15 +9,12 @@
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/mapping/pipeline.hpp"
 #include "edgevox/statistics.hpp"
-#include "evaluation/labelled_voxels.hpp"
-#include "sim/random.hpp"
+#include "evaluation/capture.hpp"
+#include "evaluation/placed_scan.hpp"
+#include "evaluation/share.hpp"
 
 namespace edgevox {
 namespace {
-
-constexpr double kFoundDistance = 0.1;  // of a pose found again from that of the run [m]
-constexpr double kFoundAngle = 1.0;     // the same [degrees]
-constexpr double kDegree = M_PI / 180.0;
 
 const char* nameOf(Representation representation) {
   switch (representation) {
@@ -65,74 +61,46 @@ Trajectory referenceOf(const Recording& recording) {
   return reference;
 }
 
-Eigen::Vector3d direction(sim::Random& random) {
-  const double z = random.normal();
-  const double y = random.normal();
-  return Eigen::Vector3d(random.normal(), y, z).normalized();
+/// The matcher, with restarts, verified as while mapping: by the usual hit ratio.
+Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
+                                 const MatcherConfig& config) {
+  const Matcher matcher(config);
+  ScanSample sample;
+  for (const size_t position : sampleVoxels(probe.scan, matcher.sampleSize())) {
+    sample.push_back(probe.scan.voxels[position].centroid.cast<double>());
+  }
+  const double usual =
+      Matcher::hitRatio(map, sample, matcher.refinePoints(sample), probe.T_map_sensor);
+  MatchRequest request;
+  request.required_hit_ratio = config.relative_hit_ratio * usual;
+  request.far_hit_ratio = request.required_hit_ratio;
+  request.trusted_hit_ratio = usual;
+  return [=, &map](const Pose& guess, uint64_t seed) -> CapturedPose {
+    MatchRequest from_guess = request;
+    from_guess.guess = guess;
+    from_guess.seed = seed;
+    const MatchResult match = matcher.match(map, sample, from_guess);
+    return {match.T_map_sensor, match.accepted};
+  };
 }
 
-/// How often the pose of a scan is found from a wrong guess, with restarts, verified as while
-/// mapping: by the usual hit ratio.
-class Capture {
- public:
-  Capture(const Recording& recording, const MapMeasureOptions& options, const Config& config)
-      : recording_(recording),
-        options_(options),
-        voxelizer_(config.voxelizer, config.voxel_size),
-        matcher_(config.matcher),
-        relative_hit_ratio_(config.matcher.relative_hit_ratio) {}
-
-  double share(const MapBuilder& map, const Run& run) {
-    size_t trials = 0;
-    size_t found = 0;
-    for (size_t i = 0; i < options_.capture_scans; ++i) {
-      const size_t scan = i * run.poses.size() / options_.capture_scans;
-      if (!run.poses[scan]) continue;
-      const ScanSample sample = sampleOf(scan);
-      sim::Random random(1, scan);  // the same guesses for every map
-      for (size_t trial = 0; trial < options_.capture_trials; ++trial, ++trials) {
-        found += isFound(map.matchMap(), sample, *run.poses[scan], random) ? 1 : 0;
-      }
-    }
-    return static_cast<double>(found) / static_cast<double>(trials);
+/// The share of wrong guesses of the poses of a run from which they are found again.
+double capturedShare(const Recording& recording, const MapMeasureOptions& options,
+                     const Config& config, const MapBuilder& map, const Run& run) {
+  Voxelizer voxelizer(config.voxelizer, config.voxel_size);
+  const Disturbance disturbance = disturbedBy(options.capture_distance, options.capture_angle);
+  CaptureCounts counts;
+  for (size_t i = 0; i < options.capture_scans; ++i) {
+    const size_t scan = i * run.poses.size() / options.capture_scans;
+    if (!run.poses[scan]) continue;
+    const auto truth = [&](double time_offset) { return recording.poseAt(scan, time_offset); };
+    const CaptureProbe probe{seenAtOnce(voxelizer.voxelize(recording.scans[scan].view), truth),
+                             *run.poses[scan], scan};
+    counts += capture(probe, disturbance, options.capture_trials,
+                      matcherRegistration(map.matchMap(), probe, config.matcher));
   }
-
- private:
-  ScanSample sampleOf(size_t scan) {
-    const VoxelScan voxels = voxelizer_.voxelize(recording_.scans[scan].view);
-    const auto placed = placedCentroids(recording_, scan, voxels);
-    const Pose T_sensor_map = recording_.scans[scan].T_map_sensor.inverse();
-    ScanSample sample;
-    for (const size_t position : sampleVoxels(voxels, matcher_.sampleSize())) {
-      sample.push_back(T_sensor_map * placed[position]);
-    }
-    return sample;
-  }
-
-  bool isFound(const MatchMap& map, const ScanSample& sample, const Pose& truth,
-               sim::Random& random) const {
-    MatchRequest request;
-    request.guess = truth;
-    request.guess.translation() += options_.capture_distance * direction(random);
-    request.guess.linear() =
-        rotationOf(options_.capture_angle * kDegree * direction(random)) * truth.linear();
-    const double usual = Matcher::hitRatio(map, sample, matcher_.refinePoints(sample), truth);
-    request.required_hit_ratio = relative_hit_ratio_ * usual;
-    request.far_hit_ratio = request.required_hit_ratio;
-    request.trusted_hit_ratio = usual;
-    request.seed = random.next();
-    const MatchResult match = matcher_.match(map, sample, request);
-    const Pose off = truth.inverse() * match.T_map_sensor;
-    return match.accepted && off.translation().norm() < kFoundDistance &&
-           rotationAngle(off) < kFoundAngle * kDegree;
-  }
-
-  const Recording& recording_;
-  const MapMeasureOptions& options_;
-  Voxelizer voxelizer_;
-  Matcher matcher_;
-  double relative_hit_ratio_;
-};
+  return shareOf(counts.right, counts.trials());
+}
 
 /// All rows of the table; the first is that of all voxels, which the others are compared with.
 class MapTable {
@@ -151,7 +119,7 @@ class MapTable {
     if (representation != Representation::kAll) table_.set("anchors", anchors);
     addSize(pipeline.mapper(), config);
     addErrors(run);
-    table_.set("captured", Capture(recording_, options_, config).share(pipeline.map(), run));
+    table_.set("captured", capturedShare(recording_, options_, config, pipeline.map(), run));
     table_.set("ms", mean(run.milliseconds));
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/recorded_scan.hpp"
 
-#include <cstddef>
 #include <cstring>
 
 namespace edgevox {
@@ -11,7 +10,22 @@ struct PackedPoint {
   float x, y, z, time;
 };
 
+Twist twistBetween(const StampedPose& from, const StampedPose& to) {
+  return twistOf(from.pose.inverse() * to.pose, to.stamp - from.stamp);
+}
+
 }  // namespace
+
+SensorMotion motionAt(const Trajectory& trajectory, size_t at) {
+  SensorMotion motion;
+  motion.T_map_sensor = trajectory[at].pose;
+  const bool first = at == 0;
+  const bool last = at + 1 == trajectory.size();
+  if (!first) motion.before = twistBetween(trajectory[at - 1], trajectory[at]);
+  motion.after = last ? motion.before : twistBetween(trajectory[at], trajectory[at + 1]);
+  if (first) motion.before = motion.after;
+  return motion;
+}
 
 RecordedScan recordedScan(const sim::Scan& scan) {
   RecordedScan recorded;

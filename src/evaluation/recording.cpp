@@ -55,8 +55,7 @@ Recording simulate(const RecordingOptions& options) {
 Pose Recording::poseAt(size_t scan, double time_offset) const {
   const RecordedScan& recorded = scans[scan];
   if (truth) return truth->path.poseAt(recorded.view.stamp + time_offset);
-  const Twist& twist = time_offset < 0.0 ? recorded.before : recorded.after;
-  return recorded.T_map_sensor * moved(twist, time_offset);
+  return recorded.poseAt(time_offset);
 }
 
 double endOf(const Recording& recording, size_t scan) {

@@ -11,10 +11,11 @@
 namespace edgevox {
 namespace {
 
-std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp) {
+TruePose poseAround(double stamp, const Trajectory& trajectory) {
   const auto matches = matchStamps({{stamp, Pose::Identity()}}, trajectory);
-  if (matches.empty()) return std::nullopt;
-  return trajectory[matches.front().reference].pose;
+  if (matches.empty()) return {};
+  const SensorMotion motion = motionAt(trajectory, matches.front().reference);
+  return [motion](double time_offset) { return motion.poseAt(time_offset); };
 }
 
 }  // namespace
@@ -25,7 +26,8 @@ ScanStream simulatedStream(const std::string& input) {
     const auto sweeps = static_cast<size_t>(sim::countSweeps(truth->path, truth->sensor));
     for (size_t sweep = 0; sweep < std::min(sweeps, most); ++sweep) {
       const RecordedScan scan = simulatedScan(*truth, static_cast<int>(sweep));
-      visit(scan.view, scan.T_map_sensor);
+      visit(scan.view,
+            [&](double time_offset) { return truth->path.poseAt(scan.view.stamp + time_offset); });
     }
   };
 }
@@ -40,7 +42,7 @@ ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses)
     forEachReadable(
         reader,
         [&](size_t, const auto&, const CloudView& view) {
-          visit(view, poseAt(trajectory, view.stamp));
+          visit(view, poseAround(view.stamp, trajectory));
         },
         most);
   };

@@ -4,17 +4,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "edgevox/grid/voxel.hpp"
 #include "edgevox/scan/voxelizer.hpp"
+#include "evaluation/placed_scan.hpp"
 
 namespace edgevox {
 
-/// One scan and where the sensor truly was at its stamp, in any frame that stands still; no pose if
-/// that is not known.
-using VisitScan = std::function<void(const CloudView& cloud, const std::optional<Pose>& truth)>;
+/// `truth` in any frame that stands still, valid while visit runs; empty if it is not known.
+using VisitScan = std::function<void(const CloudView& cloud, const TruePose& truth)>;
 
 /// Goes through the first `most` scans of a recording, of which one at a time is in memory. Safe to
 /// call from several threads.

@@ -2,6 +2,7 @@
 #include "evaluation/trust_matrix.hpp"
 
 #include <mutex>
+#include <optional>
 
 #include "core/parallel.hpp"
 #include "edgevox/mapping/mapper.hpp"
@@ -14,8 +15,9 @@ class StrideRun {
  public:
   StrideRun(size_t stride, const Config& config) : stride_(stride), mapper_(config) {}
 
-  void process(size_t number, const VoxelScan& scan, const std::optional<Pose>& truth) {
-    if (number % stride_ == 0) tally_.add(mapper_.process(scan), truth);
+  void process(size_t number, const VoxelScan& scan, const TruePose& truth) {
+    if (number % stride_ != 0) return;
+    tally_.add(mapper_.process(scan), truth ? std::optional<Pose>(truth(0.0)) : std::nullopt);
   }
   const TrustCounts& counts() const { return tally_.counts(); }
 
@@ -31,7 +33,7 @@ std::vector<TrustCounts> runStrides(const ScanStream& scans, const TrustOptions&
   std::vector<StrideRun> runs;
   for (const size_t stride : options.strides) runs.emplace_back(stride, options.config);
   size_t number = 0;
-  scans(options.most, [&](const CloudView& cloud, const std::optional<Pose>& truth) {
+  scans(options.most, [&](const CloudView& cloud, const TruePose& truth) {
     const VoxelScan scan = voxelizer.voxelize(cloud);
     for (StrideRun& run : runs) run.process(number, scan, truth);
     ++number;

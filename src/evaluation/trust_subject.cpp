@@ -4,8 +4,12 @@
 #include <iostream>
 #include <limits>
 #include <thread>
+#include <utility>
 
+#include "edgevox/io/atomic_file.hpp"
+#include "evaluation/capture_report.hpp"
 #include "evaluation/list_option.hpp"
+#include "evaluation/simulated_truth.hpp"
 #include "evaluation/subjects.hpp"
 #include "evaluation/trust_matrix.hpp"
 #include "evaluation/trust_report.hpp"
@@ -42,7 +46,14 @@ po::options_description describe() {
   add("jobs,j",
       po::value<int64_t>()->default_value(std::max(1U, std::thread::hardware_concurrency()),
                                           "the processors"),
-      "recordings at a time; the results do not depend on it");
+      "recordings, or probes of --capture, at a time; no count depends on it");
+  add("capture",
+      "also measure from how wrong a guess the pose of a scan is found, beside PCL's GICP and NDT; "
+      "writes FOLDER/capture.md and capture.csv");
+  add("capture-inputs", po::value<std::vector<std::string>>()->multitoken(),
+      "WORLD:SENSOR[:SEED] or FILE[=TUM] ..., for --capture (default: building:32 and the first "
+      "--bag)");
+  add("trials", po::value<int64_t>()->default_value(500), "at least, of a row of --capture");
   addConfigOptions(known);
   add("output,o", po::value<std::string>()->required(), "folder for the results; made if need be");
   return known;
@@ -67,21 +78,46 @@ void addSimulated(const po::variables_map& given, std::vector<TrustRecording>& r
   }
 }
 
-void addBag(const std::string& text, std::vector<TrustRecording>& recordings) {
+struct Input {
+  std::string name;
+  ScanStream scans;
+};
+
+/// Of FILE[=TUM].
+Input bagOf(const std::string& text) {
   const size_t equals = fs::exists(text) ? std::string::npos : text.rfind('=');
   const fs::path bag = text.substr(0, equals);
   const std::string poses = equals == std::string::npos ? "" : text.substr(equals + 1);
   const std::string name = bag.filename().string();
   if (!Table::isText(name)) throw UsageError("no name for a table: '" + name + "'; rename the bag");
-  recordings.push_back({name, "", "", 0, bagStream(bag, poses)});
+  return {name, bagStream(bag, poses)};
+}
+
+Input inputOf(const std::string& text) {
+  return isSimulated(text) ? Input{text, simulatedStream(text)} : bagOf(text);
 }
 
 std::vector<TrustRecording> recordingsOf(const po::variables_map& given) {
   std::vector<TrustRecording> recordings;
   addSimulated(given, recordings);
-  for (const std::string& bag : textsOf(given, "bag")) addBag(bag, recordings);
-  if (recordings.empty()) throw UsageError("name --worlds or a --bag");
+  for (const std::string& text : textsOf(given, "bag")) {
+    Input bag = bagOf(text);
+    recordings.push_back({bag.name, "", "", 0, std::move(bag.scans)});
+  }
   return recordings;
+}
+
+std::vector<Input> captureInputsOf(const po::variables_map& given) {
+  if (given.count("capture") == 0) return {};
+  std::vector<std::string> texts = textsOf(given, "capture-inputs");
+  if (texts.empty()) {
+    texts = {"building:32"};
+    const auto bags = textsOf(given, "bag");
+    if (!bags.empty()) texts.push_back(bags.front());
+  }
+  std::vector<Input> inputs;
+  for (const std::string& text : texts) inputs.push_back(inputOf(text));
+  return inputs;
 }
 
 TrustOptions trustOptionsOf(const po::variables_map& given) {
@@ -93,20 +129,54 @@ TrustOptions trustOptionsOf(const po::variables_map& given) {
   return options;
 }
 
+CaptureOptions captureOptionsOf(const po::variables_map& given, const TrustOptions& trust) {
+  CaptureOptions options;
+  options.trials = countOf(given, "trials", 1);
+  options.threads = trust.threads;
+  options.config = trust.config;
+  options.config_name = trust.config_name;
+  return options;
+}
+
+void note(const std::string& text) { std::cerr << "evaluate: " << text << "\n"; }
+
+void countScans(const std::vector<TrustRecording>& recordings, const TrustOptions& options,
+                const fs::path& folder) {
+  const auto cells = runMatrix(recordings, options, note);
+  writeResults(folder, "trust", "plot_trust", trustTable(recordings, cells),
+               trustMarkdown(recordings, cells, options));
+}
+
+void measureCapture(const std::vector<Input>& inputs, const CaptureOptions& options, size_t most,
+                    const fs::path& folder) {
+  CaptureTable table(options);
+  for (const Input& input : inputs) {
+    note("map of " + input.name);
+    table.add(makeScene(input.name, input.scans, most, options.config), note);
+  }
+  writeFile(folder / "capture.csv", table.table().csv());
+  writeFile(folder / "capture.md", table.markdown());
+  std::cout << table.markdown();
+}
+
 }  // namespace
 
 void evaluateTrust(const Arguments& arguments) {
   const auto given = parseOptions(arguments, describe());
   if (!given) return;
   const TrustOptions options = trustOptionsOf(*given);
+  const CaptureOptions capture_options = captureOptionsOf(*given, options);
   const std::vector<TrustRecording> recordings = recordingsOf(*given);
+  const std::vector<Input> capture_inputs = captureInputsOf(*given);
+  if (recordings.empty() && capture_inputs.empty()) {
+    throw UsageError("name --worlds, a --bag or --capture");
+  }
   const fs::path folder = (*given)["output"].as<std::string>();
   makeFolder(folder);
-  const auto cells = runMatrix(recordings, options, [](const std::string& note) {
-    std::cerr << "evaluate: " << note << "\n";
-  });
-  writeResults(folder, "trust", "plot_trust", trustTable(recordings, cells),
-               trustMarkdown(recordings, cells, options));
+  if (!recordings.empty()) countScans(recordings, options, folder);
+  if (!capture_inputs.empty()) {
+    measureCapture(capture_inputs, capture_options, options.most, folder);
+  }
 }
 
 }  // namespace edgevox

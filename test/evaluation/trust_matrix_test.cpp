@@ -37,11 +37,11 @@ TrustOptions shortOptions() {
 ScanStream drifting(const ScanStream& stream, double step) {
   return [=](size_t most, const VisitScan& visit) {
     double off = 0.0;
-    stream(most, [&](const CloudView& cloud, const std::optional<Pose>& truth) {
-      Pose moved = *truth;
+    stream(most, [&](const CloudView& cloud, const TruePose& truth) {
+      Pose moved = truth(0.0);
       moved.translation().y() += off;
       off += step;
-      visit(cloud, moved);
+      visit(cloud, [&](double) { return moved; });
     });
   };
 }
@@ -63,7 +63,7 @@ TEST(TrustMatrix, MapsAsThePipelineDoes) {
     TrustTally tally;
     size_t i = 0;
     simulatedStream("corridor:16:1")(kScans, [&](const CloudView& cloud, const auto& truth) {
-      if (i++ % cell.stride == 0) tally.add(pipeline.process(cloud).scan, truth);
+      if (i++ % cell.stride == 0) tally.add(pipeline.process(cloud).scan, truth(0.0));
     });
     EXPECT_EQ(cell.counts.right, kScans / cell.stride);
     EXPECT_EQ(cell.counts.right_distances, tally.counts().right_distances);

@@ -147,6 +147,27 @@ TEST_F(EvaluateTest, countsScansOfABagAgainstItsReference) {
   EXPECT_NE(std::string::npos, table.find(",,,,1," + n + ",1," + others + ",0,0,")) << table;
 }
 
+TEST_F(EvaluateTest, measuresCaptureBesideThatOfPcl) {
+  const auto out = folder_ / "trust";
+  const Outcome outcome = evaluateRun(
+      "trust --worlds none --capture --capture-inputs corridor:16 --most 6 --trials 3 "
+      "--set voxel_size=0.4 --output " +
+      out.string());
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  const std::string text = contentOf(out / "capture.md");
+  EXPECT_NE(std::string::npos, outcome.output.find(text));
+  for (const char* method : {"edgevox (first scan)", "edgevox", "PCL GICP", "PCL NDT"}) {
+    EXPECT_NE(std::string::npos, text.find("degrees | " + std::string(method) + " | 3 |")) << text;
+  }
+  const std::string table = contentOf(out / "capture.csv");
+  EXPECT_EQ(0U, table.find("recording,disturbance,registration,trials,right,refused,wrong,ms\n"));
+  EXPECT_FALSE(std::filesystem::exists(out / "trust.csv"));
+  EXPECT_EQ(2, evaluateRun("trust --worlds none --capture --capture-inputs corridor:16 --most 1 "
+                           "--output " +
+                           out.string())
+                   .exit_code);
+}
+
 TEST_F(EvaluateTest, refusesAMatrixOfNothing) {
   const std::string output = " --output " + (folder_ / "trust").string();
   const Outcome bag = evaluateRun("trust --worlds none --bag /none.bag=/none.tum" + output);
