@@ -91,10 +91,10 @@ void refine(State& state, const std::string& name) {
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
-  constexpr int kLevels = MatchMap::kSurfaceLevels;
+  constexpr int kSteps = 11;  // of a refinement
   const Pose found = matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
   for (auto _ : state)
-    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, found, kLevels, false));
+    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, found, kSteps, false));
 }
 
 /// All stages, a scan.

@@ -10,9 +10,9 @@ namespace edgevox {
 
 /// Which voxels of the map scans are aligned to.
 enum class Representation {
-  kSparse,  ///< flat anchors, spread over space and normals, and edges where they are missing
-  kAll,     ///< all occupied voxels
-  kRandom,  ///< as many voxels as kSparse has, chosen by hash: the yardstick for kSparse
+  kSparse,  ///< planes, and of what lies in none edges and flat anchors
+  kAll,     ///< planes and all occupied voxels
+  kRandom,  ///< planes and as many voxels as kSparse has, by hash: the yardstick for kSparse
   kEdges,   ///< edge voxels of the accumulated map alone, as in Ryde et al. 2013
 };
 
@@ -54,7 +54,7 @@ struct MapConfig {
   Representation representation = Representation::kSparse;
   int min_hits = 2;             ///< scans that must have hit a voxel for it to count as occupied
   double coarsest_voxel = 6.4;  ///< of the search, rounded to voxel_size * 2^k [m]
-  int anchors = 8;      ///< flat voxels of each of three directions kept in a cube of 16 voxels
+  int anchors = 8;      ///< flat voxels out of planes kept in a cube of 16, by three directions
   int label_every = 5;  ///< scans between two labellings
   int clear_after = 0;  ///< scans that see through a voxel unhit before it leaves, 0: off
   /// Scans within which a voxel that stands alone must be hit again to enter the map, 0: off

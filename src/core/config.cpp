@@ -53,15 +53,16 @@ std::vector<Parameter> parametersOf(Config& c) {
        0, "", "results do not depend on it"},
       {"map/representation", choiceOf(c.map.representation, {"sparse", "all", "random", "edges"}),
        0, 0, "",
-       "voxels that scans are aligned to: planar anchors and, where these are missing, edges; all; "
-       "as many as of the first by chance; or edge voxels alone"},
+       "what scans are aligned to: planes and the edges and planar anchors in none of them; planes "
+       "and all voxels; planes and as many voxels by chance; or edge voxels alone"},
       {"map/min_hits", &c.map.min_hits, 1, 100, "", "scans that must hit a voxel before it counts"},
       {"map/coarsest_voxel", &c.map.coarsest_voxel, 0.1, 100, "m",
        "largest voxel of the search: how far from the prediction a pose is found",
        "matcher/coarsest_voxel"},
       {"map/anchors", &c.map.anchors, 0, 1000, "",
-       "planar voxels of each of three directions that scans are aligned to in a cube of 16 "
-       "voxels"},
+       "planar voxels in no plane, of each of three directions, that scans are aligned to in a "
+       "cube "
+       "of 16 voxels"},
       {"map/label_every", &c.map.label_every, 1, 100, "",
        "scans between two labellings of the map"},
       {"map/clear_after", &c.map.clear_after, 0, 1000, "",

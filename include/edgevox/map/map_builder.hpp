@@ -152,6 +152,9 @@ class MapBuilder {
   void addMoments(int level);
   /// A voxel that has its min_hits.
   void selectNew(int level, uint32_t slot);
+  /// Fits planes to the blocks in which the scan has changed surfaces.
+  void fitPlanes();
+  void fitPlanes(const VoxelIndex& block);
   void markOccupied(const VoxelIndex& v);
   void clearSeenThrough(const Eigen::Vector3d& sensor);
   void lookThrough(const Ray& ray, const VoxelIndex& parent);

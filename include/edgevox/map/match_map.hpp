@@ -6,6 +6,7 @@
 
 #include "edgevox/grid/block_grid.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/map/plane_level.hpp"
 #include "edgevox/map/surface_level.hpp"
 
 namespace edgevox {
@@ -29,7 +30,9 @@ struct VoxelPoint {
 /// holds the edge voxels of the accumulated occupancy.
 class MatchMap {
  public:
-  static constexpr int kSurfaceLevels = 2;
+  static constexpr int kSurfaceLevels = 1;
+  static constexpr int kFinestPlanes = 2;
+  static constexpr int kPlaneLevels = 4;
 
   /// An empty map; both sizes in metres, `coarsest_voxel` fixes the number of levels.
   MatchMap(double voxel_size, double coarsest_voxel);
@@ -45,6 +48,11 @@ class MatchMap {
     return surfaces_[static_cast<size_t>(level - 1)];
   }
   SurfaceLevel& surfaces(int level) { return surfaces_[static_cast<size_t>(level - 1)]; }
+  /// The planes of a level; kFinestPlanes <= level <= kPlaneLevels.
+  const PlaneLevel& planes(int level) const {
+    return planes_[static_cast<size_t>(level - kFinestPlanes)];
+  }
+  PlaneLevel& planes(int level) { return planes_[static_cast<size_t>(level - kFinestPlanes)]; }
   const BitGrid<16>& edgeVoxels() const { return edge_voxels_; }
   BitGrid<16>& edgeVoxels() { return edge_voxels_; }
   /// The edge voxels as they are saved, in the order of an octree; none while mapping goes on.
@@ -67,6 +75,7 @@ class MatchMap {
   static void archive(Self& self, Archive& bytes) {
     for (int l = 1; l < self.levels(); ++l) bytes(self.occupied(l));
     for (auto& level : self.surfaces_) bytes(level);
+    for (auto& level : self.planes_) bytes(level);
     bytes(self.edge_voxels_);
   }
 
@@ -74,6 +83,7 @@ class MatchMap {
   double voxel_size_;
   std::vector<BitGrid<8>> occupied_;  // [0] is not used
   std::vector<SurfaceLevel> surfaces_;
+  std::vector<PlaneLevel> planes_;
   BitGrid<16> edge_voxels_;
   BitGrid<16> hit_voxels_;
   std::vector<EdgeVoxel> edges_;

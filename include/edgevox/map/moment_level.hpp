@@ -31,12 +31,14 @@ struct MomentCell {
   bool anchor = false;          ///< see AnchorRule
   bool stale = false;           ///< changed since its surface was computed
   bool is_back = false;         ///< only sums, count and view are its own
+  bool explained = false;       ///< lies in a plane of coarser voxels
   bool selected = false;        ///< for matching; a back surface follows its voxel
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.sum, self.outer, self.view, self.count, self.last_scan, self.hits,
-          self.edge_children, self.flat_axis, self.anchor, self.stale, self.is_back, self.selected);
+          self.edge_children, self.flat_axis, self.anchor, self.stale, self.is_back, self.explained,
+          self.selected);
   }
 };
 
@@ -119,9 +121,9 @@ class MomentLevel {
   std::vector<uint32_t> stale_unselected_;  // before that; some are updated since, or repeated
 };
 
-/// Which voxels stand for a block of 8 voxels a side: of the flat ones `count` for each of three
-/// directions of the normal; where there are fewer than `count` in all, voxels that hold edges make
-/// up for them. Chosen by a hash of the voxel, so that a choice changes little when voxels come.
+/// Which voxels stand for a block of 8 voxels a side besides its planes: of those that lie in none
+/// all that hold edges and `count` flat ones for each of three directions of the normal. Chosen by
+/// a hash of the voxel, so that a choice changes little when voxels come.
 struct AnchorRule {
   int count = 0;
   int min_hits = 1;

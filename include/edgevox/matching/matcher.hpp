@@ -70,9 +70,9 @@ class Matcher {
     uint64_t look_ups = 0;
     return search(map, sample, points, guess, look_ups);
   }
-  /// The refinement alone, at levels `coarsest` to 1. hit_ratio and accepted are not set. It ends
-  /// where the pose leaves the grid's range.
-  MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int coarsest,
+  /// The refinement alone, `steps` at most. hit_ratio and accepted are not set. It ends where the
+  /// pose leaves the grid's range.
+  MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int steps,
                      bool all_voxels) const;
   /// The fraction in occupied voxels of level 1 of those of the first `points` of a sample that are
   /// in occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If

@@ -21,7 +21,7 @@ namespace {
 
 // As in PNG: shows transfers that change the ends of lines.
 constexpr std::array<uint8_t, 8> kMagic = {0x89, 'E', 'V', 'X', '\r', '\n', 0x1a, '\n'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr size_t kDigestBytes = SHA256_DIGEST_LENGTH;
 using Digest = std::array<uint8_t, kDigestBytes>;
 
@@ -117,6 +117,10 @@ uint32_t check(const std::string& bytes) {
     throw ArchiveError("it is of version " + std::to_string(start.version) +
                        ", this edgevox reads up to " + std::to_string(kVersion) +
                        ": update edgevox, or save the map again with this one");
+  }
+  if (start.version > 0 && start.version < kVersion) {
+    throw ArchiveError("it is of version " + std::to_string(start.version) +
+                       ", which had no planes: make the map again with this edgevox");
   }
   const size_t rest = bytes.size() - Start::kBytes;
   if (start.version == 0 || rest != start.size) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <array>
 
 #include "edgevox/map/moment_level.hpp"
@@ -7,44 +6,33 @@
 namespace edgevox {
 namespace {
 
-/// How many voxels of a block could be anchors.
-struct Candidates {
-  std::array<int, 3> flat{};  // by axis
-  int edges = 0;              // not flat
-};
+bool isCandidate(const MomentLevel::Cell& cell, int min_hits) {
+  return cell.hits >= min_hits && !cell.explained;
+}
 
-bool isFlat(const MomentLevel::Cell& cell) { return cell.flat_axis != MomentLevel::kNotFlat; }
-
-Candidates countCandidates(const MomentLevel& level, const SurfaceLevel& surfaces, size_t block,
-                           int min_hits) {
-  Candidates candidates;
-  surfaces.forEachInBlock(block, [&](uint32_t slot) {
-    const MomentLevel::Cell& cell = level.cell(slot);
-    if (cell.hits < min_hits) return;
-    if (isFlat(cell)) {
-      ++candidates.flat[static_cast<size_t>(cell.flat_axis)];
-    } else if (cell.edge_children > 0) {
-      ++candidates.edges;
-    }
-  });
-  return candidates;
+bool isAnchorByLot(const MomentLevel::Cell& cell) {
+  return cell.edge_children == 0 && cell.flat_axis != MomentLevel::kNotFlat;
 }
 
 }  // namespace
 
 void chooseAnchors(MomentLevel& level, const SurfaceLevel& surfaces, size_t block,
                    const AnchorRule& rule) {
-  const Candidates candidates = countCandidates(level, surfaces, block, rule.min_hits);
-  const int flat = candidates.flat[0] + candidates.flat[1] + candidates.flat[2];
-  const int missing = std::max(0, rule.count - flat);
+  std::array<int, 3> flat{};  // by axis
   surfaces.forEachInBlock(block, [&](uint32_t slot) {
     const MomentLevel::Cell& cell = level.cell(slot);
-    const double lot = unitHash(level.voxel(slot));
-    bool anchor = false;
-    if (cell.hits >= rule.min_hits) {
-      anchor = isFlat(cell)
-                   ? lot * candidates.flat[static_cast<size_t>(cell.flat_axis)] < rule.count
-                   : cell.edge_children > 0 && lot * candidates.edges < missing;
+    if (isCandidate(cell, rule.min_hits) && isAnchorByLot(cell)) {
+      ++flat[static_cast<size_t>(cell.flat_axis)];
+    }
+  });
+  surfaces.forEachInBlock(block, [&](uint32_t slot) {
+    const MomentLevel::Cell& cell = level.cell(slot);
+    bool anchor = isCandidate(cell, rule.min_hits);
+    if (isAnchorByLot(cell)) {
+      const int all = flat[static_cast<size_t>(cell.flat_axis)];
+      anchor = anchor && unitHash(level.voxel(slot)) * all < rule.count;
+    } else {
+      anchor = anchor && cell.edge_children > 0;
     }
     if (cell.anchor != anchor) level.editCell(slot).anchor = anchor;
   });

@@ -60,6 +60,7 @@ void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
   addHits();
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) addMoments(l);
   if (config_.clear_after > 0) clearSeenThrough(sensor);
+  fitPlanes();
   for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
     momentLevel(l).updateSelected(match_map_.surfaces(l));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/compression.hpp"
+#include "core/map/plane_code.hpp"
 #include "core/map/surface_code.hpp"
 #include "core/map/voxel_tree.hpp"
 #include "edgevox/archive.hpp"
@@ -50,8 +51,8 @@ struct Flags {
   }
 };
 
-/// The selected surfaces of a level.
-struct LevelCode {
+/// The selected surfaces.
+struct SurfacesCode {
   Flags selected;   // of the occupied voxels
   Flags two_sided;  // of the selected ones
   SurfaceCode front;
@@ -63,21 +64,35 @@ struct LevelCode {
   }
 };
 
+/// The planes of a level.
+struct PlaneLevelCode {
+  Flags known;      // of the occupied voxels
+  Flags two_sided;  // of those with planes
+  PlaneCode front;
+  PlaneCode back;
+
+  template <typename Self, typename Archive>
+  static void archive(Self& self, Archive& bytes) {
+    bytes(self.known, self.two_sided, self.front, self.back);
+  }
+};
+
 struct MapCode {
   VoxelTree hit;                         // voxels of level 0
   VoxelTree single;                      // occupied voxels of level 1 that hold none of these
   Flags edges;                           // of the hit voxels
   std::array<PackedBytes, 3> centroids;  // of the edges
-  std::vector<LevelCode> levels;         // from 1 on; none with the representation `edges`
-  // With that: of the voxels beside edges, and by level which of those that hold edges have no
+  SurfacesCode surfaces;                 // none with the representation `edges`
+  // With that: of the voxels beside edges, and which of those of level 1 that hold edges have no
   // surface in the file: two-sided ones, as centroids do not tell the sides apart.
   std::array<PackedBytes, 3> beside;
-  std::vector<Flags> without_surface;
+  Flags without_surface;
+  std::vector<PlaneLevelCode> planes;  // from MatchMap::kFinestPlanes on
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.hit, self.single, self.edges, self.centroids, self.levels, self.beside,
-          self.without_surface);
+    bytes(self.hit, self.single, self.edges, self.centroids, self.surfaces, self.beside,
+          self.without_surface, self.planes);
   }
 };
 
@@ -91,7 +106,7 @@ std::vector<VoxelIndex> parentsOf(const std::vector<VoxelIndex>& voxels) {
 }
 
 void addSurfaces(const SurfaceLevel& level, const std::vector<VoxelIndex>& occupied,
-                 LevelCode& code) {
+                 SurfacesCode& code) {
   code.selected = Flags(occupied, [&](const VoxelIndex& v) { return level.isSelected(v); });
   const std::vector<VoxelIndex> selected = code.selected.of(occupied);
   code.two_sided =
@@ -104,6 +119,33 @@ void addSurfaces(const SurfaceLevel& level, const std::vector<VoxelIndex>& occup
   }
 }
 
+void addPlanes(const PlaneLevel& level, const std::vector<VoxelIndex>& occupied,
+               PlaneLevelCode& code) {
+  code.known = Flags(occupied, [&](const VoxelIndex& v) { return level.find(v) != nullptr; });
+  const std::vector<VoxelIndex> known = code.known.of(occupied);
+  code.two_sided = Flags(known, [&](const VoxelIndex& v) { return level.find(v)->count == 2; });
+  for (const VoxelIndex& v : known) {
+    const VoxelPlanes& planes = *level.find(v);
+    code.front.add(planes.sides[0], level.voxelSize());
+    if (planes.count == 2) code.back.add(planes.sides[1], level.voxelSize());
+  }
+}
+
+void makePlanes(const PlaneLevelCode& code, const std::vector<VoxelIndex>& occupied,
+                PlaneLevel& level) {
+  const std::vector<VoxelIndex> known = code.known.of(occupied);
+  const std::vector<VoxelIndex> two_sided = code.two_sided.of(known);
+  size_t backs = 0;
+  for (size_t i = 0; i < known.size(); ++i) {
+    VoxelPlanes planes;
+    planes.add(code.front.plane(i, level.voxelSize()));
+    if (backs < two_sided.size() && two_sided[backs] == known[i]) {
+      planes.add(code.back.plane(backs++, level.voxelSize()));
+    }
+    level.set(known[i], planes);
+  }
+}
+
 /// Keeps what the slots of a level say of back surfaces.
 void setSurface(uint32_t slot, const Surface& surface, SurfaceLevel& level) {
   const uint32_t back = level.surface(slot).back_surface;
@@ -111,7 +153,7 @@ void setSurface(uint32_t slot, const Surface& surface, SurfaceLevel& level) {
   level.editSurface(slot).back_surface = back;
 }
 
-void makeSurfaces(const LevelCode& code, const std::vector<VoxelIndex>& occupied,
+void makeSurfaces(const SurfacesCode& code, const std::vector<VoxelIndex>& occupied,
                   SurfaceLevel& level) {
   const std::vector<VoxelIndex> selected = code.selected.of(occupied);
   const std::vector<VoxelIndex> two_sided = code.two_sided.of(selected);
@@ -127,14 +169,14 @@ void makeSurfaces(const LevelCode& code, const std::vector<VoxelIndex>& occupied
 }
 
 /// The points of a coarser voxel follow one another.
-void makeSurfaces(const std::vector<VoxelPoint>& points, int shift,
-                  const std::vector<VoxelIndex>& voxels, SurfaceLevel& level) {
+void makeSurfaces(const std::vector<VoxelPoint>& points, const std::vector<VoxelIndex>& voxels,
+                  SurfaceLevel& level) {
   auto next = voxels.begin();
   for (size_t i = 0; i < points.size();) {
-    const VoxelIndex v = coarser(points[i].voxel, shift);
+    const VoxelIndex v = coarser(points[i].voxel, 1);
     const Eigen::Vector3d centre = voxelCentre(v, level.voxelSize());
     Moments moments;
-    for (; i < points.size() && coarser(points[i].voxel, shift) == v; ++i) {
+    for (; i < points.size() && coarser(points[i].voxel, 1) == v; ++i) {
       addCentroid(points[i].centroid.cast<double>() - centre, moments);
     }
     if (next == voxels.end() || *next != v) continue;
@@ -204,12 +246,6 @@ std::vector<VoxelIndex> together(const std::vector<VoxelIndex>& a,
   return all;
 }
 
-/// Of voxels in the order of the tree.
-std::vector<VoxelIndex> parentsOf(std::vector<VoxelIndex> voxels, int levels) {
-  for (; levels > 0; --levels) voxels = parentsOf(voxels);
-  return voxels;
-}
-
 std::vector<VoxelIndex> difference(const std::vector<VoxelIndex>& a,
                                    const std::vector<VoxelIndex>& b) {
   std::vector<VoxelIndex> left;
@@ -221,12 +257,10 @@ std::vector<VoxelIndex> difference(const std::vector<VoxelIndex>& a,
 void addEdgeSurfaces(const MatchMap& map, MapCode& code) {
   addCentroids(map.besideEdges(), map.voxelSize(0), code.beside);
   const std::vector<VoxelIndex> edges = inTreeOrder(map.edgeVoxels());
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& level = map.surfaces(l);
-    code.without_surface.emplace_back(parentsOf(edges, l), [&](const VoxelIndex& v) {
-      return !level.isSelected(v) || level.hasBack(level.slotOf(v));
-    });
-  }
+  const SurfaceLevel& level = map.surfaces(1);
+  code.without_surface = Flags(parentsOf(edges), [&](const VoxelIndex& v) {
+    return !level.isSelected(v) || level.hasBack(level.slotOf(v));
+  });
 }
 
 void makeEdgeSurfaces(const MapCode& code, const std::vector<VoxelPoint>& edges, MatchMap& map) {
@@ -234,11 +268,8 @@ void makeEdgeSurfaces(const MapCode& code, const std::vector<VoxelPoint>& edges,
       centroidsOf(code.beside, besideEdges(map.hitVoxels(), map.edgeVoxels()), map.voxelSize(0));
   const std::vector<VoxelPoint> points = together(edges, map.besideEdges());
   const std::vector<VoxelIndex> voxels = inTreeOrder(map.edgeVoxels());
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const std::vector<VoxelIndex> holding = parentsOf(voxels, l);
-    const Flags& without = code.without_surface[static_cast<size_t>(l - 1)];
-    makeSurfaces(points, l, difference(holding, without.of(holding)), map.surfaces(l));
-  }
+  const std::vector<VoxelIndex> holding = parentsOf(voxels);
+  makeSurfaces(points, difference(holding, code.without_surface.of(holding)), map.surfaces(1));
 }
 
 }  // namespace
@@ -252,9 +283,12 @@ std::string encoded(const MatchMap& map, Representation representation) {
   code.edges = Flags(hit, [&](const VoxelIndex& v) { return map.edgeVoxels().test(v); });
   addCentroids(map.edges(), map.voxelSize(0), code.centroids);
   if (representation == Representation::kEdges) addEdgeSurfaces(map, code);
-  for (int l = 1; l <= MatchMap::kSurfaceLevels && representation != Representation::kEdges; ++l) {
-    addSurfaces(map.surfaces(l), occupied, code.levels.emplace_back());
+  if (representation != Representation::kEdges) {
+    addSurfaces(map.surfaces(1), occupied, code.surfaces);
+  }
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
     occupied = parentsOf(occupied);
+    addPlanes(map.planes(l), occupied, code.planes.emplace_back());
   }
   ArchiveWriter bytes;
   bytes(code);
@@ -267,8 +301,9 @@ MatchMap decoded(const std::string& bytes, const Config& config) {
   reader(code);
   reader.requireEnd();
   const bool of_edges = config.map.representation == Representation::kEdges;
-  const auto& parts = of_edges ? code.without_surface.size() : code.levels.size();
-  if (parts != MatchMap::kSurfaceLevels) throw ArchiveError("it lacks a level of surfaces");
+  if (code.planes.size() != MatchMap::kPlaneLevels - MatchMap::kFinestPlanes + 1) {
+    throw ArchiveError("it lacks a level of planes");
+  }
   MatchMap map(config.voxel_size, config.map.coarsest_voxel);
   const std::vector<VoxelIndex> hit = code.hit.voxels();
   for (const VoxelIndex& v : hit) map.hitVoxels().set(v);
@@ -280,8 +315,10 @@ MatchMap decoded(const std::string& bytes, const Config& config) {
   std::vector<VoxelIndex> occupied = together(parentsOf(hit), code.single.voxels());
   for (int l = 1; l < map.levels(); ++l) {
     for (const VoxelIndex& v : occupied) map.occupied(l).set(v);
-    if (l <= MatchMap::kSurfaceLevels && !of_edges) {
-      makeSurfaces(code.levels[static_cast<size_t>(l - 1)], occupied, map.surfaces(l));
+    if (l == 1 && !of_edges) makeSurfaces(code.surfaces, occupied, map.surfaces(1));
+    if (l >= MatchMap::kFinestPlanes && l <= MatchMap::kPlaneLevels) {
+      makePlanes(code.planes[static_cast<size_t>(l - MatchMap::kFinestPlanes)], occupied,
+                 map.planes(l));
     }
     occupied = parentsOf(occupied);
   }

@@ -34,6 +34,13 @@ void addSurfaces(const SurfaceLevel& from, const std::vector<VoxelIndex>& occupi
   }
 }
 
+/// The planes of voxels where `to` has none.
+void addPlanes(const PlaneLevel& from, PlaneLevel& to) {
+  from.forEachVoxel([&](const VoxelIndex& v, const VoxelPlanes& planes) {
+    if (to.find(v) == nullptr) to.set(v, planes);
+  });
+}
+
 /// Points in the order of the tree, of which those of `a` stay.
 template <typename Point>
 std::vector<Point> together(const std::vector<Point>& a, const std::vector<Point>& b) {
@@ -75,8 +82,9 @@ MatchMap unionOf(const MatchMap& a, const MatchMap& b, Representation representa
   addVoxels(b.hitVoxels(), map.hitVoxels());
   addVoxels(b.edgeVoxels(), map.edgeVoxels());
   for (int l = 1; l < b.levels(); ++l) addVoxels(b.occupied(l), map.occupied(l));
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    addSurfaces(b.surfaces(l), inTreeOrder(b.occupied(l)), map.surfaces(l));
+  addSurfaces(b.surfaces(1), inTreeOrder(b.occupied(1)), map.surfaces(1));
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+    addPlanes(b.planes(l), map.planes(l));
   }
   map.edges() = together(a.edges(), b.edges());
   setDirections(map.hitVoxels(), map.edges());

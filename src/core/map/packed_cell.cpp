@@ -16,6 +16,7 @@ constexpr uint8_t kAxis = 3;  // of the flags: flat_axis + 1
 constexpr uint8_t kAnchor = 4;
 constexpr uint8_t kBack = 8;
 constexpr uint8_t kSelected = 16;
+constexpr uint8_t kExplained = 32;
 
 int rounded(double value, double largest) {
   return static_cast<int>(std::lround(std::clamp(value, -largest, largest)));
@@ -42,7 +43,8 @@ int numberIn(const std::array<uint8_t, 9>& bytes, size_t i) {
 PackedCell::PackedCell(const MomentCell& cell, double size)
     : hits(static_cast<uint8_t>(std::min<uint16_t>(cell.hits, 0xff))),
       flags(static_cast<uint8_t>((cell.flat_axis + 1) | (cell.anchor ? kAnchor : 0) |
-                                 (cell.is_back ? kBack : 0) | (cell.selected ? kSelected : 0))) {
+                                 (cell.is_back ? kBack : 0) | (cell.selected ? kSelected : 0) |
+                                 (cell.explained ? kExplained : 0))) {
   const uint32_t counted = std::min<uint32_t>(cell.count, 0xffff);
   count = {static_cast<uint8_t>(counted), static_cast<uint8_t>(counted >> 8)};
   const double n = cell.count;
@@ -74,6 +76,7 @@ MomentCell PackedCell::unpacked(const Eigen::Vector3d& mean, double size) const 
   cell.anchor = (flags & kAnchor) != 0;
   cell.is_back = (flags & kBack) != 0;
   cell.selected = (flags & kSelected) != 0;
+  cell.explained = (flags & kExplained) != 0;
   return cell;
 }
 

@@ -46,9 +46,8 @@ void MapBuilder::chooseAnchorsAnew() {
     slots.clear();
     sortUnique(blocks);
     if (!blocks.empty() && blocks.back() == kNoBlock) blocks.pop_back();
-    const int count = l == 1 ? config_.anchors : (config_.anchors + 1) / 2;
     for (const size_t block : blocks) {
-      chooseAnchors(level, surfaces, block, {count, config_.min_hits});
+      chooseAnchors(level, surfaces, block, {config_.anchors, config_.min_hits});
       if (config_.representation != Representation::kSparse) continue;
       surfaces.forEachInBlock(block,
                               [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });

@@ -2,9 +2,10 @@
 #include "edgevox/map/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/LU>
+
+#include "core/map/extreme_eigenvalues.hpp"
 
 namespace edgevox {
 namespace {
@@ -20,35 +21,6 @@ constexpr double kBehind = 0.02;       // cosine to the normal of a surface seen
 constexpr double kOpposite = 0.3;      // cosine between views of two sides of anything else
 
 constexpr double kCentroidPoints = 10.0;  // that the centroid of a voxel counts for
-
-/// Smallest and largest root of the characteristic polynomial of a positive definite matrix, by
-/// Newton steps from outside: monotone, and the same on every machine.
-struct ExtremeEigenvalues {
-  double least;
-  double greatest;
-
-  explicit ExtremeEigenvalues(const Eigen::Matrix3d& m) {
-    const double c2 = m.trace();
-    const double c1 = m(0, 0) * m(1, 1) + m(1, 1) * m(2, 2) + m(2, 2) * m(0, 0) -
-                      m(0, 1) * m(0, 1) - m(1, 2) * m(1, 2) - m(2, 0) * m(2, 0);
-    const double c0 = m.determinant();
-    least = rootFrom(0.0, c2, c1, c0);
-    greatest = rootFrom(c2, c2, c1, c0);
-  }
-
- private:
-  static double rootFrom(double l, double c2, double c1, double c0) {
-    for (int i = 0; i < 40; ++i) {
-      const double value = ((l - c2) * l + c1) * l - c0;
-      const double slope = (3 * l - 2 * c2) * l + c1;
-      if (!(slope > 0)) break;
-      const double step = value / slope;
-      l -= step;
-      if (!(std::abs(step) > 1e-9 * l)) break;
-    }
-    return l;
-  }
-};
 
 Eigen::Matrix3d covarianceOf(const Moments& moments, double size) {
   const double n = moments.count;

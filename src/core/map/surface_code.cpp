@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/map/quantised.hpp"
 #include "edgevox/archive.hpp"
 #include "edgevox/map/surface.hpp"
 
@@ -17,36 +18,10 @@ constexpr double kMeanSteps = 64.0;  // a voxel
 constexpr double kNormalSteps =
     126.0;  // even, so that axes are exact: from one end of an axis of the octahedron to the other
 constexpr double kViewSteps = 30.0;
-constexpr double kTurns = 32.0;       // half a turn
-constexpr double kOctaveSteps = 4.0;  // of the information
-constexpr double kLeastOctave = -16.0;
+constexpr double kTurns = 32.0;     // half a turn
 constexpr double kFlatSide = 10.0;  // longer is the side of a flat surface
 
 enum Kind : char { kNoSide, kAlongNormal, kAgainstNormal, kView };
-
-char byteOf(double value, double greatest) {
-  const double clamped = std::min(std::max(std::round(value), 0.0), greatest);
-  return static_cast<char>(static_cast<unsigned char>(clamped));
-}
-double valueOf(char byte) { return static_cast<double>(static_cast<unsigned char>(byte)); }
-
-double signOf(double v) { return v < 0 ? -1.0 : 1.0; }
-
-/// A unit vector as a point of an unfolded octahedron, both coordinates in [-1, 1].
-Eigen::Vector2d unfolded(const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d p = direction / direction.cwiseAbs().sum();
-  if (p.z() >= 0) return p.head<2>();
-  return {(1 - std::abs(p.y())) * signOf(p.x()), (1 - std::abs(p.x())) * signOf(p.y())};
-}
-
-Eigen::Vector3d folded(const Eigen::Vector2d& p) {
-  Eigen::Vector3d direction(p.x(), p.y(), 1 - std::abs(p.x()) - std::abs(p.y()));
-  if (direction.z() < 0) {
-    direction.x() = (1 - std::abs(p.y())) * signOf(p.x());
-    direction.y() = (1 - std::abs(p.x())) * signOf(p.y());
-  }
-  return direction.normalized();
-}
 
 std::array<char, 2> directionCode(const Eigen::Vector3d& direction, double steps) {
   const Eigen::Vector2d p = unfolded(direction);
@@ -62,15 +37,6 @@ Eigen::Vector3d acrossOf(const Eigen::Vector3d& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
   return normal.cross(Eigen::Vector3d::Unit(axis)).normalized();
-}
-
-char informationCode(double information) {
-  if (!(information > 0)) return '\0';
-  return byteOf(1 + kOctaveSteps * (std::log2(information) - kLeastOctave), 255.0);
-}
-
-double informationOf(char code) {
-  return code == '\0' ? 0.0 : std::exp2((valueOf(code) - 1) / kOctaveSteps + kLeastOctave);
 }
 
 char kindOf(const Surface& surface, const Eigen::Vector3d& normal) {

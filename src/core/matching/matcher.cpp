@@ -24,11 +24,11 @@ constexpr double kNearStep = 0.25;           // after which other points may be 
 constexpr double kLeastKnown = 0.25;         // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
-constexpr int kRefineSteps[] = {0, 8, 3};    // at most, of a level
+constexpr int kRefineSteps = 11;             // at most
 constexpr double kLargestMove = 10.0;        // of one step [m, rad]
 constexpr double kConvergedDistance = 5e-4;  // [m]
 constexpr double kConvergedAngle = 5e-5;     // [rad]
-constexpr float kRobustScale = 9.0F;         // squared Mahalanobis distance
+constexpr double kRobustScale = 9.0;         // squared Mahalanobis distance
 
 /// A move of the discrete search: translation in the map's axes, rotation about the sensor.
 using Move = Eigen::Matrix<double, 6, 1>;
@@ -133,6 +133,19 @@ struct NormalEquations {
     ++matches;
   }
 
+  /// The same of a point that is `e` off a plane.
+  void add(const Eigen::Vector3d& normal, double information, double e,
+           const Eigen::Vector3d& lever) {
+    const Eigen::Vector3d turn = lever.cross(normal);
+    const Eigen::Vector3d wn = information * normal;
+    h.topLeftCorner<3, 3>() += wn * normal.transpose();
+    h.topRightCorner<3, 3>() += wn * turn.transpose();
+    h.bottomRightCorner<3, 3>() += information * turn * turn.transpose();
+    b.head<3>() += e * wn;
+    b.tail<3>() += information * e * turn;
+    ++matches;
+  }
+
   void finish() { h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose(); }
 };
 
@@ -142,48 +155,101 @@ double largestStep(const Pose& from, const Pose& to, double range) {
   return std::max(change.translation().norm(), rotationAngle(change) * range);
 }
 
-/// A point of a sample and the voxels that it is matched to.
+/// A plane, in the map frame.
+struct PlaneInMap {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double offset = 0.0;       // along the normal, of its points [m]
+  double information = 0.0;  // [1/m^2]; 0: there is none
+
+  bool known() const { return information > 0; }
+};
+
+/// That of the finest voxel with one: where coarser ones have planes too, that is the flattest.
+PlaneInMap planeAt(const MatchMap& map, const Eigen::Vector3f& point,
+                   const Eigen::Vector3f& to_sensor) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+    const PlaneLevel& level = map.planes(l);
+    const VoxelIndex v = level.voxelOf(point);
+    const Plane* plane = level.find(v, to_sensor);
+    if (plane == nullptr) continue;
+    const Eigen::Vector3d normal = plane->normal.cast<double>();
+    return {normal,
+            normal.dot(voxelCentre(v, level.voxelSize())) + static_cast<double>(plane->offset),
+            static_cast<double>(plane->information)};
+  }
+  return {};
+}
+
+/// A point of a sample and what it is matched to: the plane that it is near, else what is around.
 struct NearPoint {
   Eigen::Vector3d point;
   SurfaceLevel::Around around;
+  PlaneInMap plane;
+
+  bool lookUp(const MatchMap& map, const Eigen::Vector3f& in_map, const Eigen::Vector3f& to_sensor,
+              bool all_voxels) {
+    const SurfaceLevel& surfaces = map.surfaces(1);
+    plane = planeAt(map, in_map, to_sensor);
+    around.voxel = surfaces.voxelOf(in_map);
+    if (plane.known()) return true;
+    around = surfaces.around(around.voxel, all_voxels);
+    return around.count > 0;
+  }
 };
 
-/// The first `wanted` points of the sample that have a voxel to match at this pose.
-std::vector<NearPoint> pointsNear(const SurfaceLevel& level, const ScanSample& sample,
-                                  size_t wanted, const Pose& pose, bool all_voxels,
-                                  uint64_t& look_ups) {
+/// The first `wanted` points of the sample that have a surface to match at this pose.
+std::vector<NearPoint> pointsNear(const MatchMap& map, const ScanSample& sample, size_t wanted,
+                                  const Pose& pose, bool all_voxels, uint64_t& look_ups) {
   std::vector<NearPoint> near;
   near.reserve(wanted);
   for (const Eigen::Vector3d& point : sample) {
     if (near.size() == wanted) break;
     ++look_ups;
-    const Eigen::Vector3f in_map = (pose * point).cast<float>();
-    const auto around = level.around(level.voxelOf(in_map), all_voxels);
-    if (around.count > 0) near.push_back({point, around});
+    const Eigen::Vector3d lever = pose.linear() * point;
+    NearPoint found;
+    found.point = point;
+    if (found.lookUp(map, (pose.translation() + lever).cast<float>(),
+                     -lever.normalized().cast<float>(), all_voxels)) {
+      near.push_back(found);
+    }
   }
   return near;
 }
 
-/// Points that have moved to another voxel are given what is around that.
-NormalEquations linearise(const SurfaceLevel& level, std::vector<NearPoint>& near, const Pose& pose,
+double robustWeight(double squared_distance) {
+  const double weight = kRobustScale / (kRobustScale + squared_distance);
+  return weight * weight;
+}
+
+/// Points that have moved to another voxel are given what is there.
+NormalEquations linearise(const MatchMap& map, std::vector<NearPoint>& near, const Pose& pose,
                           bool all_voxels) {
+  const SurfaceLevel& surfaces = map.surfaces(1);
   NormalEquations equations;
   for (NearPoint& of_scan : near) {
     const Eigen::Vector3d lever = pose.linear() * of_scan.point;
     const Eigen::Vector3d point = pose.translation() + lever;
     const Eigen::Vector3f point_f = point.cast<float>();
-    const VoxelIndex voxel = level.voxelOf(point_f);
-    if (voxel != of_scan.around.voxel) of_scan.around = level.around(voxel, all_voxels);
-    float distance = 0;
     const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
-    const Surface* g = level.nearest(of_scan.around, point_f, to_sensor, distance);
+    if (surfaces.voxelOf(point_f) != of_scan.around.voxel) {
+      of_scan.lookUp(map, point_f, to_sensor, all_voxels);
+    }
+    if (const PlaneInMap& plane = of_scan.plane; plane.known()) {
+      const double e = plane.normal.dot(point) - plane.offset;
+      const double weight = robustWeight(e * e * plane.information);
+      equations.weight += weight;
+      equations.add(plane.normal, weight * plane.information, e, lever);
+      continue;
+    }
+    float distance = 0;
+    const Surface* g = surfaces.nearest(of_scan.around, point_f, to_sensor, distance);
     if (g == nullptr) continue;
-    const double robust = kRobustScale / (kRobustScale + distance);
+    const double weight = robustWeight(static_cast<double>(distance));
     const auto& m = g->information;
     Eigen::Matrix3d w;
     w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
-    equations.weight += robust * robust;
-    equations.add(w * (robust * robust), point - g->mean.cast<double>(), lever);
+    equations.weight += weight;
+    equations.add(w * weight, point - g->mean.cast<double>(), lever);
   }
   equations.finish();
   return equations;
@@ -239,7 +305,7 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
   }
   const auto refineFrom = [&](const Pose& start) {
     return verified(map, sample, request,
-                    refine(map, sample, start, MatchMap::kSurfaceLevels, request.all_voxels));
+                    refine(map, sample, start, kRefineSteps, request.all_voxels));
   };
   result = refineFrom(request.guess);
   const double step =
@@ -288,8 +354,8 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     if (coarseScore(found) <= best_score) continue;
     MatchResult candidate =
         verified(map, sample, request,
-                 refine(map, sample, search(map, sample, all_points, found, look_ups),
-                        MatchMap::kSurfaceLevels, request.all_voxels));
+                 refine(map, sample, search(map, sample, all_points, found, look_ups), kRefineSteps,
+                        request.all_voxels));
     look_ups += candidate.look_ups;
     candidate.restarts = i;
     if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
@@ -320,34 +386,32 @@ Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t point
 }
 
 MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample, const Pose& guess,
-                            int coarsest, bool all_voxels) const {
+                            int steps, bool all_voxels) const {
   MatchResult result;
   Pose& pose = result.T_map_sensor;
   pose = guess;
   const size_t wanted = refinePoints(sample);
   if (wanted == 0) return result;
   const double range = medianRange(sample, wanted);
-  for (int level = coarsest; level >= 1; --level) {
-    std::vector<NearPoint> near;
-    Pose near_pose;
-    for (int step = 0; step < kRefineSteps[level]; ++step) {
-      if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(level)) {
-        near = pointsNear(map.surfaces(level), sample, wanted, pose, all_voxels, result.look_ups);
-        near_pose = pose;
-      }
-      const auto equations = linearise(map.surfaces(level), near, pose, all_voxels);
-      result.look_ups += near.size();
-      result.matches = equations.matches;
-      result.information = equations.h;
-      result.fit = equations.weight / static_cast<double>(wanted);
-      if (equations.matches < 6) break;
-      const Move move = -equations.h.ldlt().solve(equations.b);
-      if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
-      pose = apply(pose, move);
-      if (!inGridRange(pose, map.voxelSize(0))) return result;
-      if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
-        break;
-      }
+  std::vector<NearPoint> near;
+  Pose near_pose;
+  for (int step = 0; step < steps; ++step) {
+    if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
+      near = pointsNear(map, sample, wanted, pose, all_voxels, result.look_ups);
+      near_pose = pose;
+    }
+    const auto equations = linearise(map, near, pose, all_voxels);
+    result.look_ups += near.size();
+    result.matches = equations.matches;
+    result.information = equations.h;
+    result.fit = equations.weight / static_cast<double>(wanted);
+    if (equations.matches < 6) break;
+    const Move move = -equations.h.ldlt().solve(equations.b);
+    if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
+    pose = apply(pose, move);
+    if (!inGridRange(pose, map.voxelSize(0))) return result;
+    if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
+      break;
     }
   }
   renormalise(pose);

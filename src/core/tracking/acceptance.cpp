@@ -25,10 +25,10 @@ void Acceptance::setHitRatios(MatchRequest& request) const {
 }
 
 bool Acceptance::needsFallback(const MatchResult& match, double sigma) const {
-  return match.matches < mapper_.fallback_matches ||
-         (!hit_ratios_.empty() &&
-          match.hit_ratio < mapper_.fallback_hit_ratio * upperMedian(hit_ratios_.values())) ||
-         (!sigmas_.empty() && sigma > mapper_.fallback_sigma * upperMedian(sigmas_.values()));
+  if (hit_ratios_.empty() || sigmas_.empty() || match.matches < mapper_.fallback_matches)
+    return true;
+  return match.hit_ratio < mapper_.fallback_hit_ratio * upperMedian(hit_ratios_.values()) ||
+         !(sigma <= mapper_.fallback_sigma * upperMedian(sigmas_.values()));
 }
 
 }  // namespace edgevox

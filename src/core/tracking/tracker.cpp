@@ -18,7 +18,8 @@ constexpr double kMaxTranslation = 2.0;                // a match from its predi
 constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
 constexpr double kMaxRotation = 60.0 * M_PI / 180.0;   // [rad]
 constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
-constexpr double kLeastInterval = 1e-3;                // of two sweeps' middles [s]
+constexpr int kStepsDeskewed = 3;  // of the refinement, after the motion in the sweep is known
+constexpr double kLeastInterval = 1e-3;  // of two sweeps' middles [s]
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
                     const Deskew& deskew) {
@@ -109,8 +110,9 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
   if (motion_.known()) twist = motion_.twistInSweepAt(now);
-  const auto refined = matcher_.refine(tracked.map, deskewed(scan, positions, {sweep, twist}),
-                                       now.T_map_sensor, 1, result.status == ScanStatus::kFallback);
+  const auto refined =
+      matcher_.refine(tracked.map, deskewed(scan, positions, {sweep, twist}), now.T_map_sensor,
+                      kStepsDeskewed, result.status == ScanStatus::kFallback);
   if (!inGridRange(refined.T_map_sensor, config_.voxel_size)) return;  // it ran away
   now.T_map_sensor = refined.T_map_sensor;
   result.covariance = covarianceOf(refined.information);

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/map/block_planes.hpp"
 #include "core/map/map_code.hpp"
 #include "edgevox/map/map_builder.hpp"
 #include "support/reference_extractor.hpp"
@@ -67,40 +68,81 @@ int directionOf(const std::vector<Vector3d>& centroids, double size) {
   return static_cast<int>(axis);
 }
 
-/// Of the voxels of a block `counts` for each direction, flat or not, by the hash.
+/// Of the voxels of a block `count` for each direction of flat ones, by the hash, and all others.
 struct Ballot {
   std::array<Voxels, 4> candidates;
 
   Voxels winners(int count) const {
-    const size_t flat = candidates[0].size() + candidates[1].size() + candidates[2].size();
-    const double missing = std::max(0.0, count - static_cast<double>(flat));
-    Voxels chosen;
-    for (size_t direction = 0; direction < 4; ++direction) {
+    Voxels chosen = candidates[3];
+    for (size_t direction = 0; direction < 3; ++direction) {
       const auto all = static_cast<double>(candidates[direction].size());
       for (const VoxelIndex& v : candidates[direction]) {
         const double lot = static_cast<double>(voxelHash(v) >> 11) * 0x1.0p-53;
-        if (lot * all < (direction < 3 ? count : missing)) chosen.push_back(v);
+        if (lot * all < count) chosen.push_back(v);
       }
     }
     return chosen;
   }
 };
 
-Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges, int level,
-                      const MapConfig& config) {
-  Voxels holding_edges = edges;
-  for (int l = 0; l < level; ++l) holding_edges = parents(holding_edges);
-  const AccumulatedCells cells = accumulate(scans, level);
+/// What was seen of a voxel of level 1, from far off.
+VoxelSide sideOf(const VoxelIndex& v, const std::vector<Vector3d>& centroids) {
+  const Vector3d centre = voxelCentre(coarser(v, 3), 16 * kSize);
+  VoxelSide side{v, {}, Vector3d::Zero()};
+  for (const Vector3d& centroid : centroids) {
+    side.moments += Moments::at(centroid - centre, 1.0);
+    side.view += (farSensor() - centroid).normalized();
+  }
+  return side;
+}
+
+/// The planes of each block, of all its points at once.
+std::map<VoxelIndex, BlockPlanes> planesAtOnce(const std::vector<Centroids>& scans) {
+  std::map<VoxelIndex, std::vector<VoxelSide>> sides;
+  for (const auto& [v, cell] : accumulate(scans, 1)) {
+    sides[coarser(v, 3)].push_back(sideOf(v, cell.centroids));
+  }
+  std::map<VoxelIndex, BlockPlanes> planes;
+  for (const auto& [block, of_block] : sides) {
+    planes.try_emplace(block, block, of_block, 2 * kSize, MatchMap(kSize, kCoarsest));
+  }
+  return planes;
+}
+
+void expectPlanes(const std::map<VoxelIndex, BlockPlanes>& expected, const MatchMap& map) {
+  std::array<size_t, MatchMap::kPlaneLevels + 1> counts{};
+  for (const auto& [block, planes] : expected) {
+    planes.forEachVoxel([&](int level, const VoxelIndex& v, const VoxelPlanes& of_voxel) {
+      const VoxelPlanes* known = map.planes(level).find(v);
+      ASSERT_EQ(of_voxel.count, known == nullptr ? 0 : known->count);
+      if (known == nullptr) return;
+      ++counts[static_cast<size_t>(level)];
+      EXPECT_LT((of_voxel.sides[0].normal - known->sides[0].normal).norm(), 1e-3F);
+      EXPECT_NEAR(of_voxel.sides[0].offset, known->sides[0].offset, 1e-3F);
+    });
+  }
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+    EXPECT_EQ(counts[static_cast<size_t>(l)], map.planes(l).count()) << l;
+  }
+}
+
+Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges,
+                      const std::map<VoxelIndex, BlockPlanes>& planes, const MapConfig& config) {
+  const Voxels holding_edges = parents(edges);
+  const AccumulatedCells cells = accumulate(scans, 1);
   std::map<VoxelIndex, Ballot> blocks;
   for (const VoxelIndex& v : withHits(cells, config.min_hits)) {
-    const int direction = directionOf(cells.at(v).centroids, kSize * (1 << level));
+    const std::vector<Vector3d>& centroids = cells.at(v).centroids;
+    if (planes.at(coarser(v, 3)).explains(sideOf(v, centroids))) continue;
+    int direction = directionOf(centroids, 2 * kSize);
     const bool edge = std::binary_search(holding_edges.begin(), holding_edges.end(), v);
+    if (edge) direction = 3;
     if (direction == 3 && !edge) continue;
     blocks[coarser(v, 3)].candidates[static_cast<size_t>(direction)].push_back(v);
   }
   Voxels selected;
   for (const auto& [block, ballot] : blocks) {
-    const Voxels chosen = ballot.winners(level == 1 ? config.anchors : (config.anchors + 1) / 2);
+    const Voxels chosen = ballot.winners(config.anchors);
     selected.insert(selected.end(), chosen.begin(), chosen.end());
   }
   return sorted(std::move(selected));
@@ -121,11 +163,11 @@ void expectMapOf(const std::vector<Centroids>& scans, const MapBuilder& map,
   EXPECT_TRUE(sameVoxels(hit, voxelsOf(map.hitVoxels())));
   const Voxels edges = labelledAtOnce(hit);
   EXPECT_TRUE(sameVoxels(edges, voxelsOf(map.edgeVoxels())));
-  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
-    const Voxels selected = selectedAtOnce(scans, edges, level, config);
-    EXPECT_TRUE(sameVoxels(selected, selectedIn(map, level, accumulate(scans, level)))) << level;
-    EXPECT_EQ(selected.size(), map.matchMap().surfaces(level).selectedCount());
-  }
+  const auto planes = planesAtOnce(scans);
+  expectPlanes(planes, map.matchMap());
+  const Voxels selected = selectedAtOnce(scans, edges, planes, config);
+  EXPECT_TRUE(sameVoxels(selected, selectedIn(map, 1, accumulate(scans, 1))));
+  EXPECT_EQ(selected.size(), map.matchMap().surfaces(1).selectedCount());
 }
 
 MapBuilder mapOf(const std::vector<Centroids>& scans, const MapConfig& config, int threads = 1) {

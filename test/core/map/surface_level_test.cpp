@@ -122,8 +122,7 @@ TEST(Surfaces, OfAllVoxelsAreThoseOfAllCentroids) {
   MapBuilder map = mapOf(scans);
   map.prepareAll();
   const GaussianErrors errors = errorsOf(map, scans, true);
-  EXPECT_EQ(accumulate(scans, 1).size() + accumulate(scans, 2).size(),
-            static_cast<size_t>(errors.compared));
+  EXPECT_EQ(accumulate(scans, 1).size(), static_cast<size_t>(errors.compared));
   expectSmall(errors);
 }
 

@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kLevels = MatchMap::kSurfaceLevels;
+constexpr int kSteps = 11;  // of a refinement
 
 Pose poseOf(const Vector3d& position, double yaw) {
   Pose pose(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
@@ -127,7 +127,7 @@ constexpr PoseDifference kNear{0.03, 0.3};
 
 Pose refined(const Pose& guess) {
   const MappedRoom& room = mappedRoom();
-  return room.matcher().refine(room.map, room.sample, guess, kLevels, false).T_map_sensor;
+  return room.matcher().refine(room.map, room.sample, guess, kSteps, false).T_map_sensor;
 }
 
 Pose searchedAndRefined(const Pose& guess) {
@@ -357,8 +357,7 @@ TEST(Refinement, EndsWhereItLeavesTheGrid) {
   for (Vector3d& point : sample) point.x() -= limit - 5;
   Pose guess = Pose::Identity();
   guess.translation().x() = limit - 5.0 + 0.2;
-  const MatchResult result =
-      room.matcher().refine(builder.matchMap(), sample, guess, kLevels, true);
+  const MatchResult result = room.matcher().refine(builder.matchMap(), sample, guess, kSteps, true);
   EXPECT_GT(result.matches, 100);
   EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
 }
