@@ -93,6 +93,10 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
   const VoxelScan voxels = fromMessage(scan);
   ScanResult result = mapper_.track(voxels, transforms.prior());
   if (result.clock_jumped) clockJumped();
+  if (result.odometry_jumped) {
+    log_.warn("odometry_jump", "scan " + std::to_string(scan.number) +
+                                   " is predicted at constant velocity: " + odometryJumpText());
+  }
   publishPose(scan, result, transforms);
   const float latency = latencyOf(scan);
   if (result.located()) {

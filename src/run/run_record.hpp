@@ -43,6 +43,7 @@ struct RunRecord {
   Pool<PoseRecord> poses;
   std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
+  size_t odometry_jumps = 0;               ///< scans whose odometry was not used
   size_t clock_jumps = 0;
   uint64_t refused = 0;  ///< online: clouds that could not be read
   uint64_t dropped = 0;  ///< online: clouds and scans dropped by full queues

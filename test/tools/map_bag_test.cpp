@@ -240,6 +240,34 @@ TEST_F(MapBagTest, predictionFromOdometry) {
   EXPECT_FALSE(logged("cloud 1 is"));
 }
 
+TEST_F(MapBagTest, jumpsOfTheOdometryAreToldAndBridged) {
+  const test::SimulatedRun& simulated = simulatedRun();
+  Pose T_odom_map = Pose::Identity();
+  {
+    rosbag::Bag bag(options_.bag, rosbag::bagmode::Write);
+    test::writeClouds(bag, "/points", simulated.clouds);
+    for (size_t i = 0; i < simulated.truth.size(); ++i) {
+      if (i == 4 || i == 8) T_odom_map.translation() += Eigen::Vector3d(500e3, 5000e3, -80);
+      const ros::Time stamp = simulated.clouds[i].header.stamp;
+      test::writeTransform(
+          bag, "/tf", stamp,
+          test::transformOf("odom", "lidar", stamp, T_odom_map * simulated.truth[i].pose));
+    }
+  }
+  options_.frames.odom = "odom";
+  const YAML::Node summary = run();
+  EXPECT_EQ(summary["tracked"].as<int>(), kSweeps);
+  EXPECT_EQ(summary["odometry_jumps"].as<int>(), 2);
+  EXPECT_TRUE(logged("cloud 4 is predicted at constant velocity: its odometry has jumped"));
+  EXPECT_FALSE(logged("cloud 8 is"));
+  const Trajectory trajectory = readTum(options_.output / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), size_t{kSweeps});
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const Eigen::Vector3d expected = simulated.truth[i].pose.translation();
+    EXPECT_LT((trajectory[i].pose.translation() - expected).norm(), 0.03) << i;
+  }
+}
+
 TEST_F(MapBagTest, garbageStampsAndTransformsLeaveNoTrace) {
   const test::SimulatedRun& simulated = simulatedRun();
   const auto write = [&](bool garbage) {

@@ -15,6 +15,7 @@
 #include "edgevox/tracking/acceptance.hpp"
 #include "edgevox/tracking/clock_watch.hpp"
 #include "edgevox/tracking/motion_model.hpp"
+#include "edgevox/tracking/odometry_watch.hpp"
 #include "edgevox/tracking/scan_result.hpp"
 
 namespace edgevox {
@@ -52,13 +53,14 @@ class Tracker {
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
   /// The sensor is here; how it moves is not known.
-  void setPose(const Pose& T_map_sensor) { motion_.set(T_map_sensor); }
+  void setPose(const Pose& T_map_sensor);
   /// Makes the tracker as new.
   void reset();
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.clock_watch_, self.motion_, self.acceptance_, self.lost_in_a_row_);
+    bytes(self.clock_watch_, self.odometry_watch_, self.motion_, self.acceptance_,
+          self.lost_in_a_row_);
   }
 
  private:
@@ -74,6 +76,7 @@ class Tracker {
 
   Config config_;
   ClockWatch clock_watch_;  // of the located scans
+  OdometryWatch odometry_watch_;
   Matcher matcher_;
   MotionModel motion_;
   Acceptance acceptance_;

@@ -23,4 +23,10 @@ const char* toString(ScanStatus status) {
   return "";
 }
 
+const char* odometryJumpText() {
+  return "its odometry has jumped by more than mapper/max_speed, mapper/max_turn and inertia "
+         "allow; "
+         "see to what publishes odom_frame: its poses must be continuous";
+}
+
 }  // namespace edgevox
