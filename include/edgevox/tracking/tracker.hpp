@@ -72,6 +72,7 @@ class Tracker {
              SweepPose& now, ScanResult& result);
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
+  double fastestChange() const;
   MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
 
   Config config_;

@@ -14,12 +14,11 @@ namespace {
 constexpr size_t kFewestVoxels = 50;
 constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLongestReach = 4.0;
-constexpr double kMaxTranslation = 2.0;            // a match from its prediction [m]
-constexpr double kFastest = 10.0;                  // the same, of the time passed [m/s]
-constexpr double kRadians = M_PI / 180.0;          // in a degree
-constexpr double kMaxRotation = 60.0 * kRadians;   // [rad]
-constexpr double kFastestTurn = 180.0 * kRadians;  // [rad/s]
-constexpr double kLeastInterval = 1e-3;            // of two sweeps' middles [s]
+constexpr double kMaxTranslation = 2.0;    // a match from its prediction [m]
+constexpr double kFastestChange = 10.0;    // the same, of the time passed, of a known motion [m/s]
+constexpr double kRadians = M_PI / 180.0;  // in a degree
+constexpr double kMaxRotation = 60.0 * kRadians;  // [rad]
+constexpr double kLeastInterval = 1e-3;           // of two sweeps' middles [s]
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
                     const Deskew& deskew) {
@@ -127,10 +126,17 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32
   request.guess = guess;
   acceptance_.setHitRatios(request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
-  request.max_translation = kMaxTranslation + kFastest * since_last;
-  request.max_rotation = kMaxRotation + kFastestTurn * since_last;
+  request.max_translation = kMaxTranslation + fastestChange() * since_last;
+  request.max_rotation = kMaxRotation + config_.mapper.max_turn * kRadians * since_last;
   request.seed = uint64_t{version} << 32 | lost_in_a_row_;
   return request;
+}
+
+/// How fast the sensor may leave the predicted pose [m/s].
+double Tracker::fastestChange() const {
+  const double max_speed = config_.mapper.max_speed;
+  const bool predicted = motion_.velocity() || odometry_watch_.sinceLocated();
+  return predicted ? std::min(kFastestChange, max_speed) : max_speed;
 }
 
 /// Aligns to the selected surfaces; where that is not convincing, to all.
