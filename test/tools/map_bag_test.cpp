@@ -14,6 +14,7 @@
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "map_bag_fixture.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox {
 namespace {
@@ -265,6 +266,31 @@ TEST_F(MapBagTest, jumpsOfTheOdometryAreToldAndBridged) {
   for (size_t i = 0; i < trajectory.size(); ++i) {
     const Eigen::Vector3d expected = simulated.truth[i].pose.translation();
     EXPECT_LT((trajectory[i].pose.translation() - expected).norm(), 0.03) << i;
+  }
+}
+
+TEST_F(MapBagTest, aMapOfNoiseIsBegunAnew) {
+  std::vector<PointCloud2> clouds = simulatedRun().clouds;
+  sim::Scan noise;
+  for (const auto& [x, y, z, time] : test::randomSweep(3, 0.0, 4000).points) {
+    noise.points.emplace_back(x, y, z);
+    noise.times.push_back(time);
+  }
+  const ros::Time stamp = clouds[0].header.stamp;
+  clouds[0] = test::cloudOf(noise);
+  clouds[0].header.stamp = stamp;
+  writeBag(clouds);
+  const YAML::Node summary = run();
+  EXPECT_EQ(summary["begun_anew"].as<int>(), 1);
+  EXPECT_EQ(summary["lost"].as<int>(), 1);
+  EXPECT_EQ(summary["tracked"].as<int>(), kSweeps - 2);
+  EXPECT_TRUE(logged("cloud 2: the map is begun anew with it"));
+  const Trajectory trajectory = readTum(options_.output / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), size_t{kSweeps} - 2);
+  const auto& truth = simulatedRun().truth;
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const Pose expected = truth[2].pose.inverse() * truth[i + 2].pose;
+    EXPECT_LT((trajectory[i].pose.translation() - expected.translation()).norm(), 0.05) << i;
   }
 }
 

@@ -37,6 +37,8 @@ struct ScanResult {
   bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
   /// The odometry of this scan was not used: it has jumped farther than the sensor can have moved.
   bool odometry_jumped = false;
+  /// The map was cleared, as more scans did not fit it than it was made of; this is its first.
+  bool begun_anew = false;
   StageTimes times;  ///< from `match` on by the mapper, all by the pipeline
 
   bool located() const {
@@ -47,6 +49,8 @@ struct ScanResult {
 
 /// What odometry_jumped means and what to do about it.
 const char* odometryJumpText();
+/// What begun_anew means and what to do about it.
+const char* begunAnewText();
 
 /// What is known of a scan besides its voxels.
 struct ScanPrior {

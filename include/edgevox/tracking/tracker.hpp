@@ -52,6 +52,8 @@ class Tracker {
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
+  uint64_t lostInARow() const { return lost_in_a_row_; }
+
   /// The sensor is here; how it moves is not known.
   void setPose(const Pose& T_map_sensor);
   /// Makes the tracker as new.

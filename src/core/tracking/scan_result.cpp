@@ -29,4 +29,9 @@ const char* odometryJumpText() {
          "see to what publishes odom_frame: its poses must be continuous";
 }
 
+const char* begunAnewText() {
+  return "the map is begun anew with it, as more scans did not fit the map than it was made of; "
+         "was the sensor covered at the start?";
+}
+
 }  // namespace edgevox
