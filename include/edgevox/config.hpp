@@ -82,6 +82,8 @@ struct MapperConfig {
   double fallback_hit_ratio = 0.6;  ///< of its running median: match all voxels below it
   double fallback_sigma = 1.6;      ///< worst deviation of the pose / its running median
   int fallback_matches = 100;       ///< match all voxels below it
+  double max_speed = 40.0;          ///< of the sensor [m/s]
+  double max_turn = 180.0;          ///< the same [deg/s]
   double clock_jump = 2.0;          ///< a stamp so much before the last one is no late scan [s]
   double clock_leap = 3600.0;       ///< a stamp later by more must be confirmed by a second one [s]
   AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;

@@ -98,6 +98,12 @@ std::vector<Parameter> parametersOf(Config& c) {
        "of the running median; a pose less certain is aligned to all voxels"},
       {"mapper/fallback_matches", &c.mapper.fallback_matches, 0, kMaxCount, "",
        "with fewer matched points a scan is aligned to all voxels"},
+      {"mapper/max_speed", &c.mapper.max_speed, 0.1, 1000, "m/s",
+       "of the sensor: how far from the first scan the second is accepted, and the longest step of "
+       "an odometry that is believed"},
+      {"mapper/max_turn", &c.mapper.max_turn, 1, 3600, "deg/s",
+       "of the sensor: how far from its prediction a scan is accepted, and the largest turn of an "
+       "odometry that is believed"},
       {"mapper/clock_jump", &c.mapper.clock_jump, 0, 1e6, "s",
        "a scan older than the last one by more means that the clock has jumped back; by less it is "
        "late and dropped"},

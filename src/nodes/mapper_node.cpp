@@ -93,6 +93,11 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
   const VoxelScan voxels = fromMessage(scan);
   ScanResult result = mapper_.track(voxels, transforms.prior());
   if (result.clock_jumped) clockJumped();
+  if (result.begun_anew) begunAnew(scan.number);
+  if (result.odometry_jumped) {
+    log_.warn("odometry_jump", "scan " + std::to_string(scan.number) +
+                                   " is predicted at constant velocity: " + odometryJumpText());
+  }
   publishPose(scan, result, transforms);
   const float latency = latencyOf(scan);
   if (result.located()) {
@@ -118,6 +123,13 @@ void MapperNode::clockJumped() {
   log_.warn("clock_jump",
             "the stamps have jumped back: the velocity is forgotten, and the map is " +
                 std::string(cleared ? "cleared" : "kept; call reset for a new one"));
+}
+
+void MapperNode::begunAnew(uint64_t scan) {
+  pose_publisher_.reset();
+  ++map_version_;
+  ++map_start_;
+  log_.warn("begun_anew", "scan " + std::to_string(scan) + ": " + begunAnewText());
 }
 
 void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& result,

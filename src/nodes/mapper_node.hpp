@@ -46,6 +46,7 @@ class MapperNode {
   void waitForTransforms(const Input::Arrival& arrival) const;
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
   void clockJumped();
+  void begunAnew(uint64_t scan);
   void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                    const ScanTransforms& transforms);
   void publishScanEdges(const ros::Time& stamp) const;
@@ -72,7 +73,7 @@ class MapperNode {
   RunRecord run_;
   MapperStatus status_;
   uint64_t map_version_ = 0;
-  uint64_t map_start_ = 0;        // differs after a reset or a jump of the clock
+  uint64_t map_start_ = 0;        // differs after a reset, a jump of the clock or a new begin
   uint64_t transforms_told_ = 0;  // as refused
   ros::Time last_stamp_;          // of the last located scan
 

@@ -14,6 +14,8 @@ void MapperStatus::add(const ScanReport& report) {
   last_ = report;
   ++scans_;
   ++counts_[report.status];
+  if (report.odometry_jumped != 0) ++odometry_jumps_;
+  if (report.begun_anew != 0) ++begun_anew_;
   not_located_in_a_row_ = report.located ? 0 : not_located_in_a_row_ + 1;
   if (!report.located) return;
   const StageTimes times = timesOf(report);
@@ -43,6 +45,10 @@ void MapperStatus::summarise(DiagnosticStatus& status) const {
   if (!odometry_error_.empty()) {
     warn("predicted at constant velocity: " + odometry_error_, status);
   }
+  if (last_.odometry_jumped != 0) {
+    warn(std::string("predicted at constant velocity: ") + odometryJumpText(), status);
+  }
+  if (last_.begun_anew != 0) warn(begunAnewText(), status);
   if (latency_.quantile(0.5) > kSlowLatency) {
     warn(
         "poses come late: choose a larger voxel_size, fewer matcher/refine_points or a faster "
@@ -55,6 +61,8 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   summarise(status);
   status.add("scans", scans_);
   for (const auto& [name, count] : counts_) status.add("scans " + name, count);
+  status.add("jumps of the odometry", odometry_jumps_);
+  status.add("maps begun anew", begun_anew_);
   status.add("hit ratio", last_.hit_ratio);
   status.add("required hit ratio", last_.required_hit_ratio);
   status.add("matches", last_.matches);

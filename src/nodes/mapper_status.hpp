@@ -31,6 +31,8 @@ class MapperStatus {
   ScanReport last_;
   uint64_t scans_ = 0;
   uint64_t not_located_in_a_row_ = 0;
+  uint64_t odometry_jumps_ = 0;
+  uint64_t begun_anew_ = 0;
   std::map<std::string, uint64_t> counts_;  // scans by status
   std::string transform_error_;
   std::string odometry_error_;

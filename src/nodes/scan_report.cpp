@@ -80,6 +80,8 @@ ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
   report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);
   report.matches = result.matches;
   report.restarts = result.restarts;
+  report.odometry_jumped = static_cast<uint8_t>(result.odometry_jumped);
+  report.begun_anew = static_cast<uint8_t>(result.begun_anew);
   report.match = result.times.match;
   report.insert = result.times.insert;
   report.label = result.times.label;

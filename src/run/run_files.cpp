@@ -62,7 +62,9 @@ void addScans(const RunRecord& run, Report& report) {
   report.add("too_few_voxels", uint64_t{run.count(ScanStatus::kTooFew)});
   report.add("too_large", uint64_t{run.count(ScanStatus::kTooLarge)});
   report.add("without_odometry", uint64_t{run.without_odometry});
+  report.add("odometry_jumps", uint64_t{run.odometry_jumps});
   report.add("clock_jumps", uint64_t{run.clock_jumps});
+  report.add("begun_anew", uint64_t{run.begun_anew});
   Report left_out;
   for (const auto& [reason, count] : run.left_out) left_out.add(reason, uint64_t{count});
   report.add("clouds_left_out", left_out);

@@ -41,9 +41,14 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
   record.latency = static_cast<float>(latency);
   scans.grow() = record;
 
+  if (scan.begun_anew) {
+    ++begun_anew;
+    poses = {};
+  }
   if (scan.located()) {
     poses.grow() = recordOf(scan.stamp, scan.T_map_sensor * T_base_sensor.inverse());
   }
+  if (scan.odometry_jumped) ++odometry_jumps;
   if (scan.clock_jumped) ++clock_jumps;
   points += result.points;
   dropped_points += result.dropped;

@@ -43,9 +43,11 @@ struct RunRecord {
   Pool<PoseRecord> poses;
   std::map<std::string, size_t> left_out;  ///< clouds that were not mapped, by reason
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
+  size_t odometry_jumps = 0;               ///< scans whose odometry was not used
   size_t clock_jumps = 0;
-  uint64_t refused = 0;  ///< online: clouds that could not be read
-  uint64_t dropped = 0;  ///< online: clouds and scans dropped by full queues
+  size_t begun_anew = 0;  ///< maps, as nothing fitted the one before, whose poses are dropped
+  uint64_t refused = 0;   ///< online: clouds that could not be read
+  uint64_t dropped = 0;   ///< online: clouds and scans dropped by full queues
   uint64_t points = 0;
   DroppedPoints dropped_points;
   std::string time_field;  ///< empty: the points have no times

@@ -37,6 +37,8 @@ void CloudMapping::process(size_t cloud, const CheckedCloud& checked,
   if (!result.too_large.empty()) {
     return leaveOut(cloud, toString(CloudFault::kTooLarge), result.too_large);
   }
+  noteOdometryJump(cloud, result.scan);
+  noteBegunAnew(cloud, result.scan);
   run_.add(cloud, result, transforms.T_base_sensor, timer.lap());
 }
 
@@ -44,6 +46,18 @@ void CloudMapping::noteMissingOdometry(size_t cloud, const std::string& error) {
   if (error.empty() || ++run_.without_odometry > 1) return;
   console_.print("cloud " + std::to_string(cloud) + " is predicted at constant velocity: " + error +
                  ". More of this kind are counted only.");
+}
+
+void CloudMapping::noteOdometryJump(size_t cloud, const ScanResult& scan) {
+  if (!scan.odometry_jumped || run_.odometry_jumps > 0) return;
+  console_.print("cloud " + std::to_string(cloud) + " is predicted at constant velocity: " +
+                 odometryJumpText() + ". More of this kind are counted only.");
+}
+
+void CloudMapping::noteBegunAnew(size_t cloud, const ScanResult& scan) {
+  if (!scan.begun_anew || run_.begun_anew > 0) return;
+  console_.print("cloud " + std::to_string(cloud) + ": " + begunAnewText() +
+                 " More of this kind are counted only.");
 }
 
 void CloudMapping::printNote(const std::string& note) {

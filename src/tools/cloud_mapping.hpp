@@ -32,6 +32,8 @@ class CloudMapping {
   void leaveOut(size_t cloud, const std::string& reason, const std::string& text);
   void process(size_t cloud, const CheckedCloud& checked, const ScanTransforms& transforms);
   void noteMissingOdometry(size_t cloud, const std::string& error);
+  void noteOdometryJump(size_t cloud, const ScanResult& scan);
+  void noteBegunAnew(size_t cloud, const ScanResult& scan);
   void printNote(const std::string& note);
 
   ScanTransformer transformer_;

@@ -163,6 +163,29 @@ TEST_F(FaultsTest, OneLostScanDoesNotChangeThePosesAfterIt) {
   expectWithout(bad, "lost", {"fits the map", "go back to a mapped place"});
 }
 
+TEST_F(FaultsTest, AMapOfNoiseIsBegunAnew) {
+  setParameter("mapper", "map_period", 0.1);
+  const ros::Time begin = stampAfter(0, -0.1);
+  const Sweep noise = randomSweep(3, begin.toSec(), 4000);
+  Scans sent{edgesOf(voxelScans({noise}, Config{}).front(), begin)};
+  sent.insert(sent.end(), scans().begin(), scans().end());
+  start();
+  map(sent);
+  const auto results = mapped(sent);
+  expectOdometry(posesOf(results));
+  const auto reports = reports_.messages();
+  for (size_t i = 0; i < reports.size(); ++i) {
+    EXPECT_EQ(i != 1, reports[i]->located != 0) << i;
+    EXPECT_EQ(i == 2, reports[i]->begun_anew != 0) << i;
+  }
+  EXPECT_TRUE(logs(Log::WARN, {resolved("mapper"), "the map is begun anew", "covered"}));
+  EXPECT_TRUE(
+      tells("mapper", [](const Status& s) { return valueOf(s, "maps begun anew") == "1"; }));
+  const Listener<nav_msgs::Path> path(resolved("path"));
+  ASSERT_TRUE(path.waitFor(1));
+  EXPECT_EQ(scans()[1].header.stamp, path.messages()[0]->poses.front().header.stamp);
+}
+
 TEST_F(FaultsTest, AfterAJumpBackTheMapIsKept) {
   start();
   expectJump(Config{}, "kept; call reset");

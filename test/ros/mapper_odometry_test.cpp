@@ -178,6 +178,38 @@ TEST_F(OdometryTest, StaysCorrectedAsBeforeWhenAScanIsLost) {
   expectMapToOdom(results.back(), transforms.back(), sent.back().header.stamp, tf.back());
 }
 
+TEST_F(OdometryTest, ThatJumpsIsBridgedAndTold) {
+  startWithOdometry(5.0);
+  Pose jump(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
+  jump.translation() = Eigen::Vector3d(500e3, 5000e3, 30);
+  for (size_t i = 0; i < kScans; ++i) {
+    auto odometry = odometryOf(i);
+    if (i >= kMiddle) {
+      odometry = transformOf("odom", "base_link", odometry.header.stamp,
+                             jump * poseOf(odometry.transform));
+    }
+    publishTf({odometry});
+  }
+  ros::WallDuration(0.3).sleep();
+  map(scans());
+  const auto reports = reports_.messages();
+  for (size_t i = 0; i < reports.size(); ++i) {
+    EXPECT_TRUE(reports[i]->located) << i;
+    EXPECT_EQ(i == kMiddle, reports[i]->odometry_jumped != 0) << i;
+  }
+  EXPECT_TRUE(logs(rosgraph_msgs::Log::WARN, {"its odometry has jumped", "odom_frame"}));
+  EXPECT_TRUE(
+      tells("mapper", [](const Status& s) { return valueOf(s, "jumps of the odometry") == "1"; }));
+  const Transforms tf = transformsTo("odom");
+  ASSERT_EQ(scans().size(), tf.size());
+  const auto transforms = transformsOf(scans(), kScans);
+  const auto expected = basePoses(mappedWith(scans(), transforms), transforms);
+  const Pose T_odom_base = jump * poseOf(odometryOf(kScans - 1).transform);
+  const PoseDifference error =
+      differenceOf(expected.back(), poseOf(tf.back().transform) * T_odom_base);
+  EXPECT_LT(error.metres, 0.01);
+}
+
 TEST_F(OdometryTest, BeginsAnewAfterAReset) {
   startWithOdometry(5.0);
   publishOdometry(0, kScans);

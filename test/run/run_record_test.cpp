@@ -38,6 +38,19 @@ TEST(RunRecord, LeavesOutTheTimeOfEdgesThatNobodyHasExtracted) {
   EXPECT_NE(summary.find("\"extract\": 2"), std::string::npos) << "of the one scan that has it";
 }
 
+TEST(RunRecord, DropsThePosesOfAMapThatWasBegunAnew) {
+  RunRecord run;
+  run.add(0, located(1), Pose::Identity(), 0);
+  PipelineResult anew = located(2);
+  anew.scan.begun_anew = true;
+  run.add(1, anew, Pose::Identity(), 0);
+  run.add(2, located(3), Pose::Identity(), 0);
+  EXPECT_EQ(1U, run.begun_anew);
+  EXPECT_EQ(3U, run.scans.size());
+  ASSERT_EQ(2U, run.trajectory().size());
+  EXPECT_EQ(2.0, run.trajectory().front().stamp);
+}
+
 TEST(RunRecord, SaysThatNoScanHadEdges) {
   RunRecord run;
   run.add(0, located(1), Pose::Identity(), 0.01);

@@ -14,6 +14,7 @@
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "map_bag_fixture.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox {
 namespace {
@@ -238,6 +239,59 @@ TEST_F(MapBagTest, predictionFromOdometry) {
       logged("cloud 0 is predicted at constant velocity: there is no transform from frame "
              "'lidar' to 'odom'"));
   EXPECT_FALSE(logged("cloud 1 is"));
+}
+
+TEST_F(MapBagTest, jumpsOfTheOdometryAreToldAndBridged) {
+  const test::SimulatedRun& simulated = simulatedRun();
+  Pose T_odom_map = Pose::Identity();
+  {
+    rosbag::Bag bag(options_.bag, rosbag::bagmode::Write);
+    test::writeClouds(bag, "/points", simulated.clouds);
+    for (size_t i = 0; i < simulated.truth.size(); ++i) {
+      if (i == 4 || i == 8) T_odom_map.translation() += Eigen::Vector3d(500e3, 5000e3, -80);
+      const ros::Time stamp = simulated.clouds[i].header.stamp;
+      test::writeTransform(
+          bag, "/tf", stamp,
+          test::transformOf("odom", "lidar", stamp, T_odom_map * simulated.truth[i].pose));
+    }
+  }
+  options_.frames.odom = "odom";
+  const YAML::Node summary = run();
+  EXPECT_EQ(summary["tracked"].as<int>(), kSweeps);
+  EXPECT_EQ(summary["odometry_jumps"].as<int>(), 2);
+  EXPECT_TRUE(logged("cloud 4 is predicted at constant velocity: its odometry has jumped"));
+  EXPECT_FALSE(logged("cloud 8 is"));
+  const Trajectory trajectory = readTum(options_.output / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), size_t{kSweeps});
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const Eigen::Vector3d expected = simulated.truth[i].pose.translation();
+    EXPECT_LT((trajectory[i].pose.translation() - expected).norm(), 0.03) << i;
+  }
+}
+
+TEST_F(MapBagTest, aMapOfNoiseIsBegunAnew) {
+  std::vector<PointCloud2> clouds = simulatedRun().clouds;
+  sim::Scan noise;
+  for (const auto& [x, y, z, time] : test::randomSweep(3, 0.0, 4000).points) {
+    noise.points.emplace_back(x, y, z);
+    noise.times.push_back(time);
+  }
+  const ros::Time stamp = clouds[0].header.stamp;
+  clouds[0] = test::cloudOf(noise);
+  clouds[0].header.stamp = stamp;
+  writeBag(clouds);
+  const YAML::Node summary = run();
+  EXPECT_EQ(summary["begun_anew"].as<int>(), 1);
+  EXPECT_EQ(summary["lost"].as<int>(), 1);
+  EXPECT_EQ(summary["tracked"].as<int>(), kSweeps - 2);
+  EXPECT_TRUE(logged("cloud 2: the map is begun anew with it"));
+  const Trajectory trajectory = readTum(options_.output / "trajectory.tum");
+  ASSERT_EQ(trajectory.size(), size_t{kSweeps} - 2);
+  const auto& truth = simulatedRun().truth;
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const Pose expected = truth[2].pose.inverse() * truth[i + 2].pose;
+    EXPECT_LT((trajectory[i].pose.translation() - expected.translation()).norm(), 0.05) << i;
+  }
 }
 
 TEST_F(MapBagTest, garbageStampsAndTransformsLeaveNoTrace) {

@@ -21,7 +21,7 @@ class Mapper {
   /// track(), then insert() if the scan was located.
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
   /// Where the scan was taken: all of the result but the times of insert(). The map is as before,
-  /// or cleared as the clock has jumped back.
+  /// or cleared as the clock has jumped back or as nothing fits a young one.
   ScanResult track(const VoxelScan& scan, const ScanPrior& prior = {});
   /// Adds the scan that track() has just located to the map, and the times that takes to its
   /// result.
@@ -40,17 +40,23 @@ class Mapper {
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.tracker_, self.map_);
-    if constexpr (Archive::kReads) self.recent_edges_.clear();
+    if constexpr (Archive::kReads) {
+      self.recent_edges_.clear();
+      self.is_given_ = !self.map_.empty();
+    }
   }
 
  private:
   void clockJumped();
+  ScanResult trackInMap(const VoxelScan& scan, const ScanPrior& prior);
+  bool isContradicted() const;
 
   AfterClockJump after_clock_jump_;
   Clock clock_;
   Tracker tracker_;
   MapBuilder map_;
   RecentEdges recent_edges_;
+  bool is_given_ = false;  // the map: it comes from a file
 };
 
 }  // namespace edgevox

@@ -12,11 +12,10 @@ namespace edgevox {
 struct SweepPose {
   double time = 0.0;  ///< [s]
   Pose T_map_sensor = Pose::Identity();
-  std::optional<Pose> T_odom_sensor;
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.time, self.T_map_sensor, self.T_odom_sensor);
+    bytes(self.time, self.T_map_sensor);
   }
 };
 
@@ -29,13 +28,17 @@ class MotionModel {
   const SweepPose& last() const { return *last_; }
   /// The pose at the stamp of the last sweep, also when the motion is not known any more.
   const Pose& T_map_sensor() const { return T_map_sensor_; }
+  /// The mean from the last but one sweep to the last; none before the second.
+  const std::optional<Twist>& velocity() const { return twist_; }
   /// The motion in the last sweep.
   const Twist& twistInSweep() const { return twist_in_sweep_; }
 
-  /// T_map_sensor in the middle of the sweep at `now.time`; `moving`: as before, else it stands.
-  Pose predict(const SweepPose& now, bool moving) const;
-  /// The motion in the sweep at `now.time`, for its deskewing, if it is predicted at `guess`.
-  Twist predictTwist(const SweepPose& now, const Pose& guess) const;
+  /// T_map_sensor in the middle of the sweep at `time` [s], by the motion since the last one if an
+  /// odometry knows it; else `moving` as before or standing.
+  Pose predict(double time, const std::optional<Pose>& since_last, bool moving) const;
+  /// The motion in the sweep at `now.time`, for its deskewing, if it is predicted at
+  /// `now.T_map_sensor`.
+  Twist predictTwist(const SweepPose& now, bool by_odometry) const;
   /// The motion in the sweep if it is at `now.T_map_sensor`; requires known().
   Twist twistInSweepAt(const SweepPose& now) const;
 
@@ -55,13 +58,13 @@ class MotionModel {
   }
 
  private:
-  Twist twistTo(const SweepPose& now, const Pose& T_map_sensor) const;
+  Twist twistTo(const SweepPose& now) const;
   Twist twistInSweep(const Twist& twist) const;
 
   Pose T_map_sensor_ = Pose::Identity();
   std::optional<SweepPose> last_;
-  Twist twist_;           // from the last but one sweep to the last
-  Twist twist_in_sweep_;  // in the last one
+  std::optional<Twist> twist_;  // from the last but one sweep to the last
+  Twist twist_in_sweep_;        // in the last one
 };
 
 }  // namespace edgevox

@@ -35,7 +35,11 @@ struct ScanResult {
   int restarts = 0;
   bool ahead = false;         ///< stale, as later by MapperConfig::clock_leap and not confirmed
   bool clock_jumped = false;  ///< back; the motion was forgotten, and the map if configured so
-  StageTimes times;           ///< from `match` on by the mapper, all by the pipeline
+  /// The odometry of this scan was not used: it has jumped farther than the sensor can have moved.
+  bool odometry_jumped = false;
+  /// The map was cleared, as more scans did not fit it than it was made of; this is its first.
+  bool begun_anew = false;
+  StageTimes times;  ///< from `match` on by the mapper, all by the pipeline
 
   bool located() const {
     return status == ScanStatus::kFirst || status == ScanStatus::kTracked ||
@@ -43,10 +47,15 @@ struct ScanResult {
   }
 };
 
+/// What odometry_jumped means and what to do about it.
+const char* odometryJumpText();
+/// What begun_anew means and what to do about it.
+const char* begunAnewText();
+
 /// What is known of a scan besides its voxels.
 struct ScanPrior {
   /// The sensor's pose at the stamp in any smooth frame, for the prediction; without it the
-  /// velocity is taken as constant.
+  /// velocity is taken as constant, as for a step of it that the sensor cannot have made.
   std::optional<Pose> T_odom_sensor;
   /// Where the sensor is in the map if this is the map's first scan: it fixes the map frame. Of a
   /// place farther from the origin than half the grid's range (100 km at 20 cm) only the rotation

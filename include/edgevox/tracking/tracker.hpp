@@ -15,6 +15,7 @@
 #include "edgevox/tracking/acceptance.hpp"
 #include "edgevox/tracking/clock_watch.hpp"
 #include "edgevox/tracking/motion_model.hpp"
+#include "edgevox/tracking/odometry_watch.hpp"
 #include "edgevox/tracking/scan_result.hpp"
 
 namespace edgevox {
@@ -51,14 +52,17 @@ class Tracker {
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
+  uint64_t lostInARow() const { return lost_in_a_row_; }
+
   /// The sensor is here; how it moves is not known.
-  void setPose(const Pose& T_map_sensor) { motion_.set(T_map_sensor); }
+  void setPose(const Pose& T_map_sensor);
   /// Makes the tracker as new.
   void reset();
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.clock_watch_, self.motion_, self.acceptance_, self.lost_in_a_row_);
+    bytes(self.clock_watch_, self.odometry_watch_, self.motion_, self.acceptance_,
+          self.lost_in_a_row_);
   }
 
  private:
@@ -70,10 +74,12 @@ class Tracker {
              SweepPose& now, ScanResult& result);
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
+  double fastestChange() const;
   MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
 
   Config config_;
   ClockWatch clock_watch_;  // of the located scans
+  OdometryWatch odometry_watch_;
   Matcher matcher_;
   MotionModel motion_;
   Acceptance acceptance_;

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace edgevox {
+namespace {
+
+constexpr uint32_t kYoung = 3;  // scans, from which on two have confirmed the first
+
+}  // namespace
 
 Mapper::Mapper(const Config& config, Clock clock)
     : after_clock_jump_(config.mapper.after_clock_jump),
@@ -26,11 +31,28 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
   }
   const bool clock_jumped = order == ClockWatch::Order::kJumpedBack;
   if (clock_jumped) clockJumped();
-  ScanResult result = tracker_.track(
-      scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
+  ScanResult result = trackInMap(scan, prior);
+  if (result.status == ScanStatus::kLost && isContradicted()) {
+    const bool odometry_jumped = result.odometry_jumped;
+    reset();
+    result = trackInMap(scan, prior);
+    result.odometry_jumped = odometry_jumped;
+    result.begun_anew = true;
+  }
   result.clock_jumped = clock_jumped;
   result.times.match = static_cast<float>(timer.lap());
   return result;
+}
+
+ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
+  return tracker_.track(
+      scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
+}
+
+/// Whether more scans speak against a young map than for it: its first ones were bad, not those
+/// that do not fit.
+bool Mapper::isContradicted() const {
+  return !is_given_ && map_.scans() < kYoung && tracker_.lostInARow() > map_.scans();
 }
 
 void Mapper::clockJumped() {
@@ -55,6 +77,7 @@ void Mapper::reset() {
   map_.clear();
   recent_edges_.clear();
   tracker_.reset();
+  is_given_ = false;
 }
 
 }  // namespace edgevox

@@ -11,29 +11,24 @@ constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity t
 
 }  // namespace
 
-Pose MotionModel::predict(const SweepPose& now, bool moving) const {
+Pose MotionModel::predict(double time, const std::optional<Pose>& since_last, bool moving) const {
   if (!last_) return T_map_sensor_;
-  if (now.T_odom_sensor && last_->T_odom_sensor) {
-    return last_->T_map_sensor * last_->T_odom_sensor->inverse() * *now.T_odom_sensor;
-  }
-  if (!moving) return last_->T_map_sensor;
-  const double seconds = std::min(now.time - last_->time, kLongestExtrapolation);
-  return last_->T_map_sensor * moved(twist_, seconds);
+  if (since_last) return last_->T_map_sensor * *since_last;
+  if (!moving || !twist_) return last_->T_map_sensor;
+  const double seconds = std::min(time - last_->time, kLongestExtrapolation);
+  return last_->T_map_sensor * moved(*twist_, seconds);
 }
 
-Twist MotionModel::predictTwist(const SweepPose& now, const Pose& guess) const {
-  const bool has_odom = last_ && now.T_odom_sensor && last_->T_odom_sensor;
-  return has_odom ? twistTo(now, guess) : twist_in_sweep_;
+Twist MotionModel::predictTwist(const SweepPose& now, bool by_odometry) const {
+  return last_ && by_odometry ? twistTo(now) : twist_in_sweep_;
 }
 
-Twist MotionModel::twistInSweepAt(const SweepPose& now) const {
-  return twistInSweep(twistTo(now, now.T_map_sensor));
-}
+Twist MotionModel::twistInSweepAt(const SweepPose& now) const { return twistInSweep(twistTo(now)); }
 
 void MotionModel::add(const SweepPose& now, double stamp) {
   T_map_sensor_ = now.T_map_sensor;
   if (last_) {
-    const Twist twist = twistTo(now, now.T_map_sensor);
+    const Twist twist = twistTo(now);
     twist_in_sweep_ = twistInSweep(twist);
     T_map_sensor_ = last_->T_map_sensor * moved(twist, stamp - last_->time);
     twist_ = twist;
@@ -43,18 +38,19 @@ void MotionModel::add(const SweepPose& now, double stamp) {
 
 void MotionModel::forget() {
   last_.reset();
-  twist_ = {};
+  twist_.reset();
   twist_in_sweep_ = {};
 }
 
-Twist MotionModel::twistTo(const SweepPose& now, const Pose& T_map_sensor) const {
-  return twistOf(last_->T_map_sensor.inverse() * T_map_sensor, now.time - last_->time);
+Twist MotionModel::twistTo(const SweepPose& now) const {
+  return twistOf(last_->T_map_sensor.inverse() * now.T_map_sensor, now.time - last_->time);
 }
 
 /// The velocity in the middle of the sweep, from the mean ones before it and before that.
 Twist MotionModel::twistInSweep(const Twist& twist) const {
-  return {twist.linear + kTwistGain * (twist.linear - twist_.linear),
-          twist.angular + kTwistGain * (twist.angular - twist_.angular)};
+  const Twist before = twist_.value_or(Twist{});
+  return {twist.linear + kTwistGain * (twist.linear - before.linear),
+          twist.angular + kTwistGain * (twist.angular - before.angular)};
 }
 
 }  // namespace edgevox

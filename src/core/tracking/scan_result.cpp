@@ -23,4 +23,15 @@ const char* toString(ScanStatus status) {
   return "";
 }
 
+const char* odometryJumpText() {
+  return "its odometry has jumped by more than mapper/max_speed, mapper/max_turn and inertia "
+         "allow; "
+         "see to what publishes odom_frame: its poses must be continuous";
+}
+
+const char* begunAnewText() {
+  return "the map is begun anew with it, as more scans did not fit the map than it was made of; "
+         "was the sensor covered at the start?";
+}
+
 }  // namespace edgevox

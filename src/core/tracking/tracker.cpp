@@ -14,10 +14,10 @@ namespace {
 constexpr size_t kFewestVoxels = 50;
 constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLongestReach = 4.0;
-constexpr double kMaxTranslation = 2.0;                // a match from its prediction [m]
-constexpr double kFastest = 10.0;                      // the same, of the time passed [m/s]
-constexpr double kMaxRotation = 60.0 * M_PI / 180.0;   // [rad]
-constexpr double kFastestTurn = 180.0 * M_PI / 180.0;  // [rad/s]
+constexpr double kMaxTranslation = 2.0;    // a match from its prediction [m]
+constexpr double kFastestChange = 10.0;    // the same, of the time passed, of a known motion [m/s]
+constexpr double kRadians = M_PI / 180.0;  // in a degree
+constexpr double kMaxRotation = 60.0 * kRadians;  // [rad]
 constexpr int kStepsDeskewed = 3;  // of the refinement, after the motion in the sweep is known
 constexpr double kLeastInterval = 1e-3;  // of two sweeps' middles [s]
 
@@ -37,6 +37,7 @@ Matrix6 covarianceOf(const Matrix6& information) {
 Tracker::Tracker(const Config& config)
     : config_(config),
       clock_watch_(config.mapper.clock_jump, config.mapper.clock_leap),
+      odometry_watch_(config.mapper.max_speed, config.mapper.max_turn * kRadians),
       matcher_(config.matcher),
       acceptance_(config.matcher, config.mapper) {}
 
@@ -52,6 +53,7 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
   result.number = scan.number;
   result.stamp = scan.stamp;
   result.T_map_sensor = T_map_sensor();
+  result.odometry_jumped = !odometry_watch_.add(scan.stamp, prior.T_odom_sensor);
   const auto refused = [&](ScanStatus status) {
     result.status = status;
     return result;
@@ -59,7 +61,7 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
   if (isTooLarge(scan)) return refused(ScanStatus::kTooLarge);
   if (scan.voxels.size() < kFewestVoxels) return refused(ScanStatus::kTooFew);
   const SweepTime sweep = sweepTime(scan);
-  SweepPose now{scan.stamp + sweep.middle(), firstPose(prior), prior.T_odom_sensor};
+  SweepPose now{scan.stamp + sweep.middle(), firstPose(prior)};
   if (motion_.known() && !(now.time - motion_.last().time >= kLeastInterval)) {
     return refused(ScanStatus::kStale);
   }
@@ -72,6 +74,7 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
   if (!result.located()) return result;
   clock_watch_.accept(scan.stamp);
   motion_.add(now, scan.stamp);
+  odometry_watch_.located(motion_.velocity());
   result.T_map_sensor = T_map_sensor();
   return result;
 }
@@ -102,8 +105,9 @@ Pose Tracker::firstPose(const ScanPrior& prior) const {
 void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const TrackedMap& tracked,
                     SweepPose& now, ScanResult& result) {
   const auto positions = sampleVoxels(scan, matcher_.sampleSize());
-  const Pose guess = motion_.predict(now, lost_in_a_row_ <= 1);
-  Twist twist = motion_.predictTwist(now, guess);
+  const auto since_last = odometry_watch_.sinceLocated();
+  const Pose guess = motion_.predict(now.time, since_last, lost_in_a_row_ <= 1);
+  Twist twist = motion_.predictTwist({now.time, guess}, since_last.has_value());
   const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}),
                                    requestFor(now, guess, tracked.version), tracked, result);
   if (!found.accepted) return;
@@ -124,10 +128,17 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32
   request.guess = guess;
   acceptance_.setHitRatios(request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
-  request.max_translation = kMaxTranslation + kFastest * since_last;
-  request.max_rotation = kMaxRotation + kFastestTurn * since_last;
+  request.max_translation = kMaxTranslation + fastestChange() * since_last;
+  request.max_rotation = kMaxRotation + config_.mapper.max_turn * kRadians * since_last;
   request.seed = uint64_t{version} << 32 | lost_in_a_row_;
   return request;
+}
+
+/// How fast the sensor may leave the predicted pose [m/s].
+double Tracker::fastestChange() const {
+  const double max_speed = config_.mapper.max_speed;
+  const bool predicted = motion_.velocity() || odometry_watch_.sinceLocated();
+  return predicted ? std::min(kFastestChange, max_speed) : max_speed;
 }
 
 /// Aligns to the selected surfaces; where that is not convincing, to all.
@@ -169,8 +180,14 @@ std::vector<Eigen::Vector3d> Tracker::placed(const VoxelScan& scan) const {
   return centroids;
 }
 
+void Tracker::setPose(const Pose& T_map_sensor) {
+  odometry_watch_.forget();
+  motion_.set(T_map_sensor);
+}
+
 void Tracker::forgetMotion() {
   clock_watch_.reset();
+  odometry_watch_.forget();
   motion_.forget();
 }
 
