@@ -65,6 +65,8 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("maps begun anew", begun_anew_);
   status.add("hit ratio", last_.hit_ratio);
   status.add("required hit ratio", last_.required_hit_ratio);
+  status.add("blocked lines of sight", last_.blocked);
+  status.add("most blocked lines of sight", last_.most_blocked);
   status.add("matches", last_.matches);
   status.add("restarts", last_.restarts);
   status.add("edge voxels of the map", map.edgeVoxels().voxelCount());

@@ -26,6 +26,23 @@ ScanReport reportOn(const VoxelScanStamped& scan) {
   return report;
 }
 
+std::string whyLost(const ScanResult& result) {
+  const std::string fits = percent(result.hit_ratio) + " of the scan fits the map";
+  switch (result.refusal) {
+    case Refusal::kTooFar:
+      return fits +
+             ", but farther from the predicted pose than the sensor can have moved "
+             "(mapper/max_speed, mapper/max_turn)";
+    case Refusal::kBlocked:
+      return fits + ", but it would see through walls there: " + percent(result.blocked) +
+             " of its lines of sight, " + percent(result.most_blocked) + " may";
+    case Refusal::kOutOfGrid:
+      return "the pose found is out of the grid's range";
+    default:
+      return fits + ", " + percent(result.required_hit_ratio) + " must";
+  }
+}
+
 }  // namespace
 
 StageTimes timesOf(const ScanReport& report) {
@@ -35,9 +52,8 @@ StageTimes timesOf(const ScanReport& report) {
 std::string adviceOn(const ScanResult& result) {
   switch (result.status) {
     case ScanStatus::kLost:
-      return percent(result.hit_ratio) + " of the scan fits the map, " +
-             percent(result.required_hit_ratio) +
-             " must; the map is as before: go back to a mapped place, or call reset for a new map";
+      return whyLost(result) +
+             "; the map is as before: go back to a mapped place, or call reset for a new map";
     case ScanStatus::kStale:
       if (result.ahead) {
         return "its stamp is later than that of the last scan by more than mapper/clock_leap; the "
@@ -78,6 +94,8 @@ ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
   report.text = adviceOn(result);
   report.hit_ratio = static_cast<float>(result.hit_ratio);
   report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);
+  report.blocked = static_cast<float>(result.blocked);
+  report.most_blocked = static_cast<float>(result.most_blocked);
   report.matches = result.matches;
   report.restarts = result.restarts;
   report.odometry_jumped = static_cast<uint8_t>(result.odometry_jumped);

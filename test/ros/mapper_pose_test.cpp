@@ -127,6 +127,8 @@ TEST_F(MapperTest, ReportsEveryScan) {
     EXPECT_EQ("", report.text);
     EXPECT_EQ(static_cast<float>(core.scan.hit_ratio), report.hit_ratio);
     EXPECT_EQ(static_cast<float>(core.scan.required_hit_ratio), report.required_hit_ratio);
+    EXPECT_EQ(static_cast<float>(core.scan.blocked), report.blocked);
+    EXPECT_EQ(static_cast<float>(core.scan.most_blocked), report.most_blocked);
     EXPECT_EQ(core.scan.matches, report.matches);
     EXPECT_EQ(core.scan.restarts, report.restarts);
     EXPECT_EQ(core.points, report.points);

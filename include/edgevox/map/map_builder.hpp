@@ -63,6 +63,8 @@ class MapBuilder {
   const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
   /// Voxels of level 0 with at least `min_hits`: a copy, as those of frozen regions are packed.
   BitGrid<16> hitVoxels() const;
+  /// The part of hitVoxels() that is not frozen, as it is held.
+  const BitGrid<16>& nearHitVoxels() const { return hit_voxels_; }
   size_t hitVoxelCount() const { return hit_voxels_.voxelCount() + frozenVoxels(); }
   const BitGrid<16>& edgeVoxels() const { return match_map_.edgeVoxels(); }
   /// Mean of the centroids that fell in a voxel of level 0, which must be in hitVoxels(); in frozen

@@ -22,26 +22,47 @@ using ScanSample = std::vector<Eigen::Vector3d>;
 struct MatchRequest {
   Pose guess = Pose::Identity();  ///< T_map_sensor
   double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
-  double far_hit_ratio = 1.0;     ///< the same for a match more than half of `max_translation` away
-  double trusted_hit_ratio = 0;   ///< a refinement that reaches it from the guess needs no search
-  double reach = 1.0;             ///< widening of the restarts; 1 is 1 m and 25 degrees
-  double max_translation = 4.0;   ///< of an accepted match from the guess [m]
-  double max_rotation = 1.4;      ///< the same [rad]
-  bool all_voxels = false;        ///< refine against all occupied voxels
-  uint64_t seed = 0;              ///< of the restarts
+  double far_hit_ratio = 1.0;     ///< the same for a match farther than the next two
+  double far_translation = 1.0;   ///< from the guess [m]
+  double far_rotation = 0.35;     ///< the same [rad]
+  double most_blocked = 1.0;      ///< share of blocked lines of sight of an accepted match ...
+  /// ... unless it is near the guess and has trusted_hit_ratio: glass and doors let lines pass
+  double most_blocked_near = 1.0;
+  double trusted_hit_ratio = 0;  ///< a refinement that reaches it from the guess needs no search
+  double reach = 1.0;            ///< widening of the restarts; 1 is 1 m and 25 degrees
+  double max_translation = 4.0;  ///< of an accepted match from the guess [m]
+  double max_rotation = 1.4;     ///< the same [rad]
+  bool all_voxels = false;       ///< refine against all occupied voxels
+  uint64_t seed = 0;             ///< of the restarts
+  /// Occupied voxels of level 0, to see whether lines of sight are blocked; null: that is not
+  /// asked.
+  const BitGrid<16>* hit_voxels = nullptr;
+};
+
+/// Why a match is not accepted.
+enum class Refusal {
+  kNone,
+  kOutOfGrid,  ///< the pose has left the range of the grid
+  kTooFar,     ///< from the guess
+  kFewHits,    ///< too few points lie in occupied voxels
+  kBlocked,    ///< too many lines of sight would pass through walls
 };
 
 struct MatchResult {
   Pose T_map_sensor = Pose::Identity();
-  double hit_ratio = 0.0;  ///< see Matcher::hitRatio
-  int matches = 0;         ///< points with a Gaussian in the last refinement step
-  double fit = 0.0;        ///< mean robust weight of the refined points, 0 where there is no match
+  double hit_ratio = 0.0;           ///< see Matcher::hitRatio
+  double blocked = 0.0;             ///< see blockedShare()
+  double required_hit_ratio = 0.0;  ///< as far from the guess as it is
+  double most_blocked = 1.0;        ///< the same
+  Refusal refusal = Refusal::kOutOfGrid;
+  int matches = 0;   ///< points with a Gaussian in the last refinement step
+  double fit = 0.0;  ///< mean robust weight of the refined points, 0 where there is no match
   int restarts = 0;
   uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
   /// Information of the last step, on (translation, rotation vector about the sensor), in the map's
   /// axes.
   Matrix6 information = Matrix6::Zero();
-  /// hit_ratio >= required_hit_ratio, near enough to the guess, and in the grid's range
+  /// hit_ratio and blocked as required, near enough to the guess, and in the grid's range
   bool accepted = false;
 };
 

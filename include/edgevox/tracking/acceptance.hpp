@@ -15,16 +15,17 @@ class Acceptance {
   Acceptance(const MatcherConfig& matcher, const MapperConfig& mapper)
       : matcher_(matcher), mapper_(mapper) {}
 
-  /// Sets the hit ratios of a request.
-  void setHitRatios(MatchRequest& request) const;
+  /// Sets what a match must reach; after a scan that was lost more than else.
+  void setLimits(bool was_lost, MatchRequest& request) const;
   /// Whether a match to the selected surfaces is too weak; `sigma` as of worstSigma() [m].
   bool needsFallback(const MatchResult& match, double sigma) const;
   void addHitRatio(double ratio) { hit_ratios_.push(ratio); }
+  void addBlocked(double share) { blocked_.push(share); }
   void addSigma(double sigma) { sigmas_.push(sigma); }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.hit_ratios_, self.sigmas_);
+    bytes(self.hit_ratios_, self.sigmas_, self.blocked_);
   }
 
  private:
@@ -34,6 +35,7 @@ class Acceptance {
   MapperConfig mapper_;
   RingBuffer<double> hit_ratios_{kWindow};
   RingBuffer<double> sigmas_{kWindow};
+  RingBuffer<double> blocked_{kWindow};
 };
 
 }  // namespace edgevox

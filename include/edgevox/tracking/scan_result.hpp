@@ -31,6 +31,9 @@ struct ScanResult {
   Matrix6 covariance = Matrix6::Zero();
   double hit_ratio = 0.0;
   double required_hit_ratio = 0.0;
+  double blocked = 0.0;              ///< share of lines of sight that would pass through walls
+  double most_blocked = 0.0;         ///< with which it may be located
+  Refusal refusal = Refusal::kNone;  ///< why it is lost
   int matches = 0;
   int restarts = 0;
   bool ahead = false;         ///< stale, as later by MapperConfig::clock_leap and not confirmed

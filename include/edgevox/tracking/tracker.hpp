@@ -25,8 +25,9 @@ struct SweepTime;
 /// A map to track in, as it is for one scan.
 struct TrackedMap {
   const MatchMap& map;
-  bool empty = false;    ///< then the scan is put where its prior says
-  uint32_t version = 0;  ///< seeds the restarts; differs after each change
+  const BitGrid<16>& hit_voxels;  ///< of level 0
+  bool empty = false;             ///< then the scan is put where its prior says
+  uint32_t version = 0;           ///< seeds the restarts; differs after each change
   /// Called before all surfaces are matched to, not only the selected ones: brings them up to date.
   std::function<void()> prepareAll = [] {};
 };
@@ -75,7 +76,7 @@ class Tracker {
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
   double fastestChange() const;
-  MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
+  MatchRequest requestFor(const SweepPose& now, const Pose& guess, const TrackedMap& tracked) const;
 
   Config config_;
   ClockWatch clock_watch_;  // of the located scans

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "edgevox/matching/free_space.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "edgevox/statistics.hpp"
 
@@ -19,6 +20,7 @@ constexpr int kCandidates = 4;            // for each point refined: most have n
 constexpr double kRestartDistance = 1.0;  // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
 constexpr uint64_t kMostLookUps = 12000000;  // of a match; four times what a found one needed
+constexpr size_t kLinesOfSight = 500;        // of a match, looked along
 constexpr double kTrustedStep = 1.0;         // of a refinement alone [voxel of level 1]
 constexpr double kNearStep = 0.25;           // after which other points may be near [voxel]
 constexpr double kLeastKnown = 0.25;         // of a sample
@@ -327,11 +329,25 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
   if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
   const Pose moved = request.guess.inverse() * result.T_map_sensor;
-  const double distance = std::max(moved.translation().norm() / request.max_translation,
-                                   rotationAngle(moved) / request.max_rotation);
-  const double required = distance > 0.5 ? request.far_hit_ratio : request.required_hit_ratio;
+  const double distance = moved.translation().norm();
+  const double angle = rotationAngle(moved);
+  const bool far = distance > request.far_translation || angle > request.far_rotation;
+  result.required_hit_ratio = far ? request.far_hit_ratio : request.required_hit_ratio;
   result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
-  result.accepted = distance <= 1.0 && result.hit_ratio >= required;
+  const bool trusted = !far && result.hit_ratio >= request.trusted_hit_ratio;
+  result.most_blocked = trusted ? request.most_blocked_near : request.most_blocked;
+  if (request.hit_voxels != nullptr) {
+    result.blocked =
+        blockedShare(map, *request.hit_voxels, sample, kLinesOfSight, result.T_map_sensor);
+  }
+  if (distance > request.max_translation || angle > request.max_rotation) {
+    result.refusal = Refusal::kTooFar;
+  } else if (result.hit_ratio < result.required_hit_ratio) {
+    result.refusal = Refusal::kFewHits;
+  } else {
+    result.refusal = result.blocked > result.most_blocked ? Refusal::kBlocked : Refusal::kNone;
+  }
+  result.accepted = result.refusal == Refusal::kNone;
   return result;
 }
 

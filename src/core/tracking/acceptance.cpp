@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/tracking/acceptance.hpp"
 
+#include <algorithm>
+
 #include "edgevox/statistics.hpp"
 
 namespace edgevox {
 namespace {
 
-constexpr double kTrusted = 0.95;  // of the running median of the hit ratios
+constexpr double kTrusted = 0.95;            // of the running median of the hit ratios
+constexpr double kMostBlockedAtFirst = 0.2;  // lines of sight, before there is a history
+constexpr double kBlocked = 0.08;            // the same later, more than ...
+constexpr double kBlockedNear = 0.15;        // and so much more of a match near the prediction
+constexpr double kTimesBlocked = 2.5;        // ... so many times their running median
 
 }  // namespace
 
 /// Before there is a history, a match is not trusted.
-void Acceptance::setHitRatios(MatchRequest& request) const {
+void Acceptance::setLimits(bool was_lost, MatchRequest& request) const {
   if (hit_ratios_.empty()) {
     request.required_hit_ratio = matcher_.min_hit_ratio;
     request.far_hit_ratio = matcher_.min_hit_ratio;
     request.trusted_hit_ratio = 1.0;
+    request.most_blocked = request.most_blocked_near = kMostBlockedAtFirst;
     return;
   }
   const double usual = upperMedian(hit_ratios_.values());
-  request.required_hit_ratio = matcher_.relative_hit_ratio * usual;
   request.trusted_hit_ratio = kTrusted * usual;
   request.far_hit_ratio = request.trusted_hit_ratio;
+  request.required_hit_ratio =
+      was_lost ? request.far_hit_ratio
+               : std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio);
+  request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
+  request.most_blocked_near = request.most_blocked + (was_lost ? 0.0 : kBlockedNear);
 }
 
 bool Acceptance::needsFallback(const MatchResult& match, double sigma) const {

@@ -13,6 +13,7 @@
 
 #include "core/scan/scan_sample.hpp"
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/matching/free_space.hpp"
 #include "edgevox/matching/matcher.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "support/random.hpp"
@@ -280,14 +281,54 @@ TEST(Match, TooFarFromTheGuessIsNotAccepted) {
     request.max_translation = farthest;
     const MatchResult result = matcher.match(room.map, room.sample, request);
     EXPECT_EQ(farthest > 0.6, result.accepted) << farthest << ": " << result.hit_ratio;
+    EXPECT_EQ(farthest > 0.6 ? Refusal::kNone : Refusal::kTooFar, result.refusal);
     if (result.accepted) EXPECT_LT(differenceOf(room.truth, result.T_map_sensor).metres, 0.03);
   }
-  // Beyond half of the farthest more is asked.
+  // Farther off more is asked.
   request.far_hit_ratio = 1.01;
-  request.max_translation = 1.0;
-  EXPECT_FALSE(matcher.match(room.map, room.sample, request).accepted);
-  request.max_translation = 2.0;
+  request.far_translation = 0.5;
+  const MatchResult far = matcher.match(room.map, room.sample, request);
+  EXPECT_FALSE(far.accepted);
+  EXPECT_EQ(Refusal::kFewHits, far.refusal);
+  EXPECT_EQ(1.01, far.required_hit_ratio);
+  request.far_translation = 0.8;
   EXPECT_TRUE(matcher.match(room.map, room.sample, request).accepted);
+}
+
+double blockedAt(const Pose& pose) {
+  const MappedRoom& room = mappedRoom();
+  return blockedShare(room.map, room.builder.nearHitVoxels(), room.sample, 500, pose);
+}
+
+TEST(FreeSpace, LinesOfSightAreBlockedWhereThePoseIsWrong) {
+  const Pose& truth = mappedRoom().truth;
+  EXPECT_LT(blockedAt(truth), 0.03);
+  Random random(23);
+  double least = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    least = std::min(least, blockedAt(displaced(truth, 1.5, 20, random)));
+  }
+  RecordProperty("truth", std::to_string(blockedAt(truth)));
+  RecordProperty("least_wrong", std::to_string(least));
+  EXPECT_GT(least, 0.1);
+}
+
+TEST(FreeSpace, MatchesThatSeeThroughWallsAreNotAccepted) {
+  const MappedRoom& room = mappedRoom();
+  MatcherConfig config;
+  config.max_restarts = 0;
+  config.refine_points = 1;  // the pose stays wrong
+  MatchRequest request;
+  request.guess = room.truth;
+  request.guess.translation().x() += 1.5;
+  request.most_blocked = request.most_blocked_near = 0.1;
+  const auto matched = [&] { return Matcher(config).align(room.map, room.sample, request); };
+  EXPECT_TRUE(matched().accepted);
+  request.hit_voxels = &room.builder.nearHitVoxels();
+  const MatchResult result = matched();
+  EXPECT_FALSE(result.accepted);
+  EXPECT_EQ(Refusal::kBlocked, result.refusal);
+  EXPECT_GT(result.blocked, 0.1);
 }
 
 TEST(Match, IsTheSameEveryTime) {
