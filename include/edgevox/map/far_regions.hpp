@@ -24,7 +24,7 @@ struct FrozenRegion {
   uint8_t blocks = 0;                  ///< a bit a block: whether it has any
   std::vector<uint64_t> hit_voxels;    ///< of those blocks, by appendBits()
   /// 3 bytes an edge voxel: its centroid by axis [1/256 voxel]; a bit a hit voxel: whether it is
-  /// an edge before thinning; then PackedCells of the selected voxels, finest level first.
+  /// an edge before thinning; then the PackedCells of the selected voxels.
   std::vector<uint8_t> data;
 
   size_t edges() const { return edges_to.back(); }

@@ -59,8 +59,8 @@ class MapBuilder {
   bool empty() const { return scans_ == 0; }
   uint32_t scans() const { return scans_; }
 
-  /// The moments of a level; 1 <= level <= MatchMap::kSurfaceLevels.
-  const MomentLevel& moments(int level) const { return moments_[static_cast<size_t>(level - 1)]; }
+  /// What the surfaces of level 1 are computed from.
+  const MomentLevel& moments() const { return moments_; }
   /// Voxels of level 0 with at least `min_hits`: a copy, as those of frozen regions are packed.
   BitGrid<16> hitVoxels() const;
   /// The part of hitVoxels() that is not frozen, as it is held.
@@ -95,9 +95,7 @@ class MapBuilder {
     bytes(self.scans_, self.ignored_, self.cleared_count_, self.left_out_lone_, self.left_out_full_,
           self.full_, self.thawed_count_, self.lone_voxels_, self.hit_grid_, self.hits_,
           self.hit_slots_, self.hit_voxels_, self.edge_candidates_, self.changed_, self.match_map_,
-          self.far_, self.random_share_);
-    for (auto& level : self.moments_) bytes(level);
-    bytes(self.touched_);
+          self.far_, self.random_share_, self.moments_, self.touched_);
     if constexpr (Archive::kReads) self.checkRead();
   }
 
@@ -126,14 +124,14 @@ class MapBuilder {
     std::vector<Eigen::Vector3d> centroids;
     std::vector<VoxelIndex> voxels;          // at level 0
     std::vector<Eigen::Vector3f> to_sensor;  // unit vectors
-    std::vector<uint32_t> slots;             // at one level
+    std::vector<uint32_t> slots;             // of its hits, then of its moments
     std::vector<VoxelIndex> cleared;         // by the scan
     ScanNeighbours neighbours;
   };
 
   void checkRead();
   void checkHits();
-  void checkSurfaces(int level) const;
+  void checkSurfaces() const;
   /// Makes the centroids and voxels of scan_, of those in range.
   void setPoints(const std::vector<Eigen::Vector3d>& centroids);
   /// Leaves in scan_ the points whose voxel passes the test, in their order.
@@ -143,17 +141,17 @@ class MapBuilder {
   void leaveOutNew();
   bool isBesideEstablished(const VoxelIndex& parent) const;
   bool isFrozen(const VoxelIndex& v) const;
-  /// Whether there is a hit voxel in one of a level, in a region that is not frozen.
-  bool isHitWithin(const VoxelIndex& v, int level) const;
+  /// Whether there is a hit voxel in one of level 1, in a region that is not frozen.
+  bool isHitWithin(const VoxelIndex& parent) const;
   void addPoints(const Eigen::Vector3d& sensor);
   Eigen::Vector3d centroidOf(uint32_t slot, const VoxelIndex& v) const;
   /// The slot of a voxel in hits_, which is made if there is none.
   uint32_t hitSlot(const VoxelIndex& v);
   void dropHit(uint32_t slot);
   void addHits();
-  void addMoments(int level);
+  void addMoments();
   /// A voxel that has its min_hits.
-  void selectNew(int level, uint32_t slot);
+  void selectNew(uint32_t slot);
   /// Fits planes to the blocks in which the scan has changed surfaces.
   void fitPlanes();
   void fitPlanes(const VoxelIndex& block);
@@ -165,12 +163,11 @@ class MapBuilder {
   bool isHitBeside(const VoxelIndex& v) const;
   void remove(const VoxelIndex& v);
   void subtractMoments(const VoxelIndex& v);
-  void sumChildren(int level, const VoxelIndex& v);
   void changeEdges(const BitGrid<16>& targets, const std::vector<BitGrid<16>::Block>& before);
-  /// The finer voxels of v that are or hold edges have changed.
-  void countEdges(int level, const VoxelIndex& v);
+  /// Of the voxels in one of level 1 others are edges than before.
+  void countEdges(const VoxelIndex& parent);
   /// The block of this voxel is due for a choice of what is selected.
-  void touch(int level, uint32_t slot);
+  void touch(uint32_t slot);
   void chooseAnchorsAnew();
   void selectRandom();
   void selectEdges();
@@ -180,21 +177,20 @@ class MapBuilder {
   void freeze(const VoxelIndex& region);
   void packVoxels(const VoxelIndex& region, FrozenRegion& frozen);
   void dropHits(const VoxelIndex& region);
-  void packCells(int level, const VoxelIndex& region, std::vector<PackedCell>& packed);
+  void packCells(const VoxelIndex& region, std::vector<PackedCell>& packed);
   /// Thaws the regions that a change of voxel v concerns.
   void thawAround(const VoxelIndex& v);
   void thaw(const VoxelIndex& region);
   void reviveHit(const VoxelIndex& v, const Eigen::Vector3d& in_voxel);
-  const PackedCell* unpackCells(int level, const VoxelIndex& region, const PackedCell* next);
+  void unpackCells(const VoxelIndex& region, const PackedCell* next);
   Eigen::Vector3d frozenCentroid(const VoxelIndex& v) const;
   void checkFrozen(const VoxelIndex& region, const FrozenRegion& frozen) const;
   /// Size of what is held less what will be used again.
   size_t usedBytes() const;
   /// As configured.
   size_t memoryBytes() const { return static_cast<size_t>(config_.memory) * 1000000; }
-  MomentLevel& momentLevel(int level) { return moments_[static_cast<size_t>(level - 1)]; }
-  void select(int level, uint32_t slot, bool selected) {
-    momentLevel(level).select(slot, selected, match_map_.surfaces(level));
+  void select(uint32_t slot, bool selected) {
+    moments_.select(slot, selected, match_map_.surfaces());
   }
 
   double voxel_size_;
@@ -216,12 +212,11 @@ class MapBuilder {
   BitGrid<16> hit_voxels_;       // of regions that are not frozen
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
   BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
-  std::vector<MomentLevel> moments_;
+  MomentLevel moments_;
   MatchMap match_map_;
   FarRegions far_;
-  // slots by level - 1, repeated
-  std::array<std::vector<uint32_t>, MatchMap::kSurfaceLevels> touched_;
-  std::array<double, MatchMap::kSurfaceLevels> random_share_{};  // of the voxels of a level
+  std::vector<uint32_t> touched_;  // slots of moments_, repeated
+  double random_share_ = 0.0;      // of its voxels that are selected
   ScanBeingAdded scan_;
 };
 

@@ -26,13 +26,12 @@ struct VoxelPoint {
 
 /// What scans are matched to, a value: a multi-resolution occupied voxel list (Ryde and Hu 2010).
 /// Level k has voxels of voxel_size * 2^k. All levels from 1 on hold the bits of all occupied
-/// voxels, for the search; levels 1 to kSurfaceLevels hold surfaces, for the refinement; level 0
-/// holds the edge voxels of the accumulated occupancy.
+/// voxels, for the search; level 1 holds surfaces and levels kFinestPlanes to kCoarsestPlanes hold
+/// planes, for the refinement; level 0 holds the edge voxels of the accumulated occupancy.
 class MatchMap {
  public:
-  static constexpr int kSurfaceLevels = 1;
   static constexpr int kFinestPlanes = 2;
-  static constexpr int kPlaneLevels = 4;
+  static constexpr int kCoarsestPlanes = 4;
 
   /// An empty map; both sizes in metres, `coarsest_voxel` fixes the number of levels.
   MatchMap(double voxel_size, double coarsest_voxel);
@@ -43,12 +42,10 @@ class MatchMap {
   /// The bits of a level; 1 <= level < levels().
   const BitGrid<8>& occupied(int level) const { return occupied_[static_cast<size_t>(level)]; }
   BitGrid<8>& occupied(int level) { return occupied_[static_cast<size_t>(level)]; }
-  /// The surfaces of a level; 1 <= level <= kSurfaceLevels.
-  const SurfaceLevel& surfaces(int level) const {
-    return surfaces_[static_cast<size_t>(level - 1)];
-  }
-  SurfaceLevel& surfaces(int level) { return surfaces_[static_cast<size_t>(level - 1)]; }
-  /// The planes of a level; kFinestPlanes <= level <= kPlaneLevels.
+  /// The surfaces of level 1.
+  const SurfaceLevel& surfaces() const { return surfaces_; }
+  SurfaceLevel& surfaces() { return surfaces_; }
+  /// The planes of a level; kFinestPlanes <= level <= kCoarsestPlanes.
   const PlaneLevel& planes(int level) const {
     return planes_[static_cast<size_t>(level - kFinestPlanes)];
   }
@@ -74,7 +71,7 @@ class MatchMap {
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     for (int l = 1; l < self.levels(); ++l) bytes(self.occupied(l));
-    for (auto& level : self.surfaces_) bytes(level);
+    bytes(self.surfaces_);
     for (auto& level : self.planes_) bytes(level);
     bytes(self.edge_voxels_);
   }
@@ -82,7 +79,7 @@ class MatchMap {
  private:
   double voxel_size_;
   std::vector<BitGrid<8>> occupied_;  // [0] is not used
-  std::vector<SurfaceLevel> surfaces_;
+  SurfaceLevel surfaces_;
   std::vector<PlaneLevel> planes_;
   BitGrid<16> edge_voxels_;
   BitGrid<16> hit_voxels_;

@@ -16,7 +16,7 @@
 
 namespace edgevox {
 
-/// The sums over the centroids of a voxel.
+/// The sums over the centroids in a voxel of level 1.
 struct MomentCell {
   static constexpr int8_t kNotFlat = -1;
 
@@ -26,7 +26,7 @@ struct MomentCell {
   uint32_t count = 0;            ///< centroids
   uint32_t last_scan = 0;
   uint16_t hits = 0;            ///< scans
-  uint8_t edge_children = 0;    ///< finer voxels that are or hold edges
+  uint8_t edge_children = 0;    ///< voxels in it that are edges
   int8_t flat_axis = kNotFlat;  ///< as of the last findFlatAxis()
   bool anchor = false;          ///< see AnchorRule
   bool stale = false;           ///< changed since its surface was computed
@@ -42,7 +42,7 @@ struct MomentCell {
   }
 };
 
-/// The sums over centroids from which the surfaces of a level are computed, in the same slots.
+/// The sums over centroids from which surfaces and planes are computed, in the surfaces' slots.
 /// Slots of kind Slots::kFar have none: those of selected voxels are kept packed, elsewhere.
 /// Which of them are `selected` depends on the representation of the map. Copies share their
 /// memory: see Pool.

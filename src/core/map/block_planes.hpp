@@ -28,7 +28,7 @@ class BlockPlanes {
  public:
   static constexpr int kFinest = MatchMap::kFinestPlanes;
   static constexpr int kCoarsest =
-      MatchMap::kPlaneLevels;  ///< whose voxels are as large as a block
+      MatchMap::kCoarsestPlanes;  ///< whose voxels are as large as a block
 
   /// `size` [m] is that of voxels of level 1. Planes of `before` stay where most of the points are
   /// forgotten that they were fitted to.

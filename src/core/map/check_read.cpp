@@ -16,10 +16,8 @@ void require(bool good, const char* error) {
 
 void MapBuilder::checkRead() {
   checkHits();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    moments(l).checkRead(match_map_.surfaces(l));
-    checkSurfaces(l);
-  }
+  moments_.checkRead(match_map_.surfaces());
+  checkSurfaces();
   far_.forEachFrozen([this](const VoxelIndex& region, const FrozenRegion& frozen) {
     checkFrozen(region, frozen);
   });
@@ -41,11 +39,11 @@ void MapBuilder::checkHits() {
 }
 
 /// The surfaces of frozen regions, and no others, have no moments.
-void MapBuilder::checkSurfaces(int l) const {
+void MapBuilder::checkSurfaces() const {
   const char* error = "the surfaces do not fit to the frozen regions";
-  const SurfaceLevel& surfaces = match_map_.surfaces(l);
+  const SurfaceLevel& surfaces = match_map_.surfaces();
   surfaces.forEachVoxel([&](const VoxelIndex& v, uint32_t slot) {
-    const VoxelIndex region = coarser(v, FarRegions::kShift - l);
+    const VoxelIndex region = coarser(v, FarRegions::kShift - 1);
     const bool far = surfaces.slots().kindOf(slot) == Slots::kFar;
     require(far == (far_.find(region) != nullptr), error);
   });

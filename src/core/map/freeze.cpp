@@ -40,11 +40,11 @@ size_t countBefore(const BitGrid<16>::Block& block, const VoxelIndex& v) {
 
 /// Calls visit(VoxelIndex) for the blocks of a SurfaceLevel that lie in a region.
 template <typename Visit>
-void forEachSurfaceBlock(const VoxelIndex& region, int level, Visit&& visit) {
-  const int side = FarRegions::kSide >> (level + 3);
-  for (int i = 0; i < side * side * side; ++i) {
-    visit(VoxelIndex{region.x * side + i % side, region.y * side + i / side % side,
-                     region.z * side + i / (side * side)});
+void forEachSurfaceBlock(const VoxelIndex& region, Visit&& visit) {
+  constexpr int kSide = FarRegions::kSide / 16;
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    visit(VoxelIndex{region.x * kSide + i % kSide, region.y * kSide + i / kSide % kSide,
+                     region.z * kSide + i / (kSide * kSide)});
   }
 }
 
@@ -96,9 +96,7 @@ bool MapBuilder::freezeDue() const {
 
 void MapBuilder::freezeAll(const std::vector<VoxelIndex>& regions) {
   if (regions.empty()) return;
-  const bool labelled =
-      changed_.blockCount() == 0 && std::all_of(touched_.begin(), touched_.end(),
-                                                [](const auto& slots) { return slots.empty(); });
+  const bool labelled = changed_.blockCount() == 0 && touched_.empty();
   if (!labelled) label();
   for (const VoxelIndex& region : regions) freeze(region);
 }
@@ -108,7 +106,7 @@ void MapBuilder::freeze(const VoxelIndex& region) {
   packVoxels(region, frozen);
   dropHits(region);
   std::vector<PackedCell> cells;
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) packCells(l, region, cells);
+  packCells(region, cells);
   const auto* bytes = reinterpret_cast<const uint8_t*>(cells.data());
   frozen.data.insert(frozen.data.end(), bytes, bytes + cells.size() * sizeof(PackedCell));
   far_.freeze(region, std::move(frozen));
@@ -156,17 +154,16 @@ void MapBuilder::dropHits(const VoxelIndex& region) {
   }
 }
 
-void MapBuilder::packCells(int l, const VoxelIndex& region, std::vector<PackedCell>& packed) {
-  MomentLevel& level = momentLevel(l);
-  SurfaceLevel& surfaces = match_map_.surfaces(l);
-  forEachSurfaceBlock(region, l, [&](const VoxelIndex& block) {
+void MapBuilder::packCells(const VoxelIndex& region, std::vector<PackedCell>& packed) {
+  SurfaceLevel& surfaces = match_map_.surfaces();
+  forEachSurfaceBlock(region, [&](const VoxelIndex& block) {
     std::vector<VoxelIndex> selected;
     std::vector<VoxelIndex> others;
     surfaces.forEachVoxelInBlock(block, [&](const VoxelIndex& v, uint32_t slot) {
-      (level.cell(slot).selected ? selected : others).push_back(v);
+      (moments_.cell(slot).selected ? selected : others).push_back(v);
     });
-    for (const VoxelIndex& v : others) level.erase(v, surfaces);
-    for (const VoxelIndex& v : selected) level.pack(v, surfaces, packed);
+    for (const VoxelIndex& v : others) moments_.erase(v, surfaces);
+    for (const VoxelIndex& v : selected) moments_.pack(v, surfaces, packed);
     surfaces.shrinkBlock(block);
   });
 }
@@ -195,8 +192,7 @@ void MapBuilder::thaw(const VoxelIndex& region) {
   std::vector<PackedCell> packed(frozen.cells());
   const uint8_t* cells = frozen.data.data() + frozen.cellsAt();
   if (!packed.empty()) std::memcpy(packed.data(), cells, packed.size() * sizeof(PackedCell));
-  const PackedCell* next = packed.data();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) next = unpackCells(l, region, next);
+  unpackCells(region, packed.data());
   ++thawed_count_;
 }
 
@@ -214,10 +210,9 @@ bool MapBuilder::isFrozen(const VoxelIndex& v) const {
   return far_.find(FarRegions::regionOf(v)) != nullptr;
 }
 
-bool MapBuilder::isHitWithin(const VoxelIndex& v, int level) const {
-  if (level == 0) return hit_voxels_.test(v);
+bool MapBuilder::isHitWithin(const VoxelIndex& parent) const {
   for (int i = 0; i < kChildren; ++i) {
-    if (isHitWithin(childOf(v, i), level - 1)) return true;
+    if (hit_voxels_.test(childOf(parent, i))) return true;
   }
   return false;
 }
@@ -232,17 +227,16 @@ void MapBuilder::reviveHit(const VoxelIndex& v, const Eigen::Vector3d& in_voxel)
   }
 }
 
-const PackedCell* MapBuilder::unpackCells(int l, const VoxelIndex& region, const PackedCell* next) {
-  SurfaceLevel& surfaces = match_map_.surfaces(l);
-  forEachSurfaceBlock(region, l, [&](const VoxelIndex& block) {
+void MapBuilder::unpackCells(const VoxelIndex& region, const PackedCell* next) {
+  SurfaceLevel& surfaces = match_map_.surfaces();
+  forEachSurfaceBlock(region, [&](const VoxelIndex& block) {
     std::vector<VoxelIndex> voxels;
     surfaces.forEachVoxelInBlock(block,
                                  [&](const VoxelIndex& v, uint32_t) { voxels.push_back(v); });
     for (const VoxelIndex& v : voxels) {
-      next = momentLevel(l).unpack(v, surfaces, next, edgeChildrenOf(edgeVoxels(), l, v));
+      next = moments_.unpack(v, surfaces, next, edgeChildrenOf(edgeVoxels(), v));
     }
   });
-  return next;
 }
 
 Eigen::Vector3d MapBuilder::frozenCentroid(const VoxelIndex& v) const {
@@ -264,14 +258,11 @@ void MapBuilder::checkFrozen(const VoxelIndex& region, const FrozenRegion& froze
     good = good && edges == frozen.edges_to[i];
   });
   size_t cells = 0;
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& surfaces = match_map_.surfaces(l);
-    forEachSurfaceBlock(region, l, [&](const VoxelIndex& block) {
-      surfaces.forEachVoxelInBlock(block, [&](const VoxelIndex&, uint32_t slot) {
-        cells += surfaces.hasBack(slot) ? 2 : 1;
-      });
-    });
-  }
+  const SurfaceLevel& surfaces = match_map_.surfaces();
+  forEachSurfaceBlock(region, [&](const VoxelIndex& block) {
+    surfaces.forEachVoxelInBlock(
+        block, [&](const VoxelIndex&, uint32_t slot) { cells += surfaces.hasBack(slot) ? 2 : 1; });
+  });
   if (!good || cells != frozen.cells()) {
     throw ArchiveError("a frozen region does not fit to its edges and surfaces");
   }

@@ -42,21 +42,17 @@ void MapBuilder::changeEdges(const BitGrid<16>& targets,
       differs[row] = static_cast<uint16_t>((*now)[row] ^ before[slot][row]);
     }
     BitGrid<16>::forEachInBlock(block, differs,
-                                [&](const VoxelIndex& v) { countEdges(1, coarser(v, 1)); });
+                                [&](const VoxelIndex& v) { countEdges(coarser(v, 1)); });
   }
 }
 
-/// A thawed voxel without a cell is passed over: the coarser one may have one.
-void MapBuilder::countEdges(int l, const VoxelIndex& v) {
-  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  if (slot != SurfaceLevel::kNone) {
-    const uint8_t before = moments(l).cell(slot).edge_children;
-    const uint8_t now = edgeChildrenOf(edgeVoxels(), l, v);
-    if (now != before) momentLevel(l).editCell(slot).edge_children = now;
-    if ((now != 0) == (before != 0)) return;
-    touch(l, slot);
-  }
-  if (l < MatchMap::kSurfaceLevels) countEdges(l + 1, coarser(v, 1));
+void MapBuilder::countEdges(const VoxelIndex& parent) {
+  const uint32_t slot = match_map_.surfaces().slotOf(parent);
+  if (slot == SurfaceLevel::kNone) return;  // thawed and not hit again
+  const uint8_t before = moments_.cell(slot).edge_children;
+  const uint8_t now = edgeChildrenOf(edgeVoxels(), parent);
+  if (now != before) moments_.editCell(slot).edge_children = now;
+  if ((now != 0) != (before != 0)) touch(slot);
 }
 
 }  // namespace edgevox

@@ -79,14 +79,14 @@ void MapBuilder::leaveOutLone() {
 }
 
 bool MapBuilder::isBesideEstablished(const VoxelIndex& parent) const {
-  const SurfaceLevel& surfaces = match_map_.surfaces(1);
+  const SurfaceLevel& surfaces = match_map_.surfaces();
   BitReader<8> occupied(match_map_.occupied(1));
   return areAround(parent, 1, [&](const VoxelIndex& v) {
     if (!occupied.test(v)) return false;
     const uint32_t slot = surfaces.slotOf(v);
-    if (slot == SurfaceLevel::kNone || !moments(1).hasCell(slot))
-      return isHitWithin(v, 1) || isFrozen({2 * v.x, 2 * v.y, 2 * v.z});
-    return moments(1).cell(slot).hits >= kEstablished;
+    if (slot == SurfaceLevel::kNone || !moments_.hasCell(slot))
+      return isHitWithin(v) || isFrozen({2 * v.x, 2 * v.y, 2 * v.z});
+    return moments_.cell(slot).hits >= kEstablished;
   });
 }
 

@@ -17,9 +17,8 @@ MapBuilder::MapBuilder(double voxel_size, const MapConfig& map, const EdgeConfig
       labeller_(edges, edges.map, threads),
       edge_neighbours_(edges.mode == EdgeMode::kPaper ? 0 : edges.map_neighbours),
       lone_voxels_(map.confirm_within),
-      match_map_(voxel_size, map.coarsest_voxel) {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
-}
+      moments_(2 * voxel_size),
+      match_map_(voxel_size, map.coarsest_voxel) {}
 
 void MapBuilder::insert(const std::vector<Eigen::Vector3d>& centroids,
                         const Eigen::Vector3d& sensor) {
@@ -49,7 +48,7 @@ void MapBuilder::setPoints(const std::vector<Eigen::Vector3d>& centroids) {
                  [=](const Eigen::Vector3d& c) { return voxelAt(c, inverse_size); });
 }
 
-/// One pass a level and a step: short loops over memory that do not wait for one another.
+/// One pass a step: short loops over memory that do not wait for one another.
 void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
   scan_.to_sensor.resize(scan_.centroids.size());
   scan_.slots.resize(scan_.centroids.size());
@@ -58,12 +57,10 @@ void MapBuilder::addPoints(const Eigen::Vector3d& sensor) {
                    return (sensor - c).cast<float>().normalized();
                  });
   addHits();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) addMoments(l);
+  addMoments();
   if (config_.clear_after > 0) clearSeenThrough(sensor);
   fitPlanes();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    momentLevel(l).updateSelected(match_map_.surfaces(l));
-  }
+  moments_.updateSelected(match_map_.surfaces());
 }
 
 uint32_t MapBuilder::hitSlot(const VoxelIndex& v) {
@@ -97,22 +94,21 @@ void MapBuilder::addHits() {
   }
 }
 
-void MapBuilder::addMoments(int l) {
-  MomentLevel& level = momentLevel(l);
-  SurfaceLevel& surfaces = match_map_.surfaces(l);
+void MapBuilder::addMoments() {
+  SurfaceLevel& surfaces = match_map_.surfaces();
   for (size_t i = 0; i < scan_.voxels.size(); ++i) {
-    const VoxelIndex v = coarser(scan_.voxels[i], l);
-    scan_.slots[i] = level.slotFor(v, surfaces);
-    if (level.cell(scan_.slots[i]).hits != 0) continue;
-    if (l == 1) markOccupied(v);
+    const VoxelIndex v = coarser(scan_.voxels[i], 1);
+    scan_.slots[i] = moments_.slotFor(v, surfaces);
+    if (moments_.cell(scan_.slots[i]).hits != 0) continue;
+    markOccupied(v);
     if (thawed_count_ == 0) continue;
-    level.editCell(scan_.slots[i]).edge_children = edgeChildrenOf(edgeVoxels(), l, v);
+    moments_.editCell(scan_.slots[i]).edge_children = edgeChildrenOf(edgeVoxels(), v);
   }
   for (size_t i = 0; i < scan_.voxels.size(); ++i) {
-    if (!level.add(scan_.slots[i], scan_.centroids[i], scan_.to_sensor[i], scans_, surfaces))
+    if (!moments_.add(scan_.slots[i], scan_.centroids[i], scan_.to_sensor[i], scans_, surfaces))
       continue;
-    touch(l, scan_.slots[i]);
-    if (level.cell(scan_.slots[i]).hits == config_.min_hits) selectNew(l, scan_.slots[i]);
+    touch(scan_.slots[i]);
+    if (moments_.cell(scan_.slots[i]).hits == config_.min_hits) selectNew(scan_.slots[i]);
   }
 }
 
@@ -122,11 +118,7 @@ void MapBuilder::markOccupied(const VoxelIndex& v) {
   }
 }
 
-void MapBuilder::prepareAll() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    momentLevel(l).updateAll(match_map_.surfaces(l));
-  }
-}
+void MapBuilder::prepareAll() { moments_.updateAll(match_map_.surfaces()); }
 
 void MapBuilder::clear() {
   scans_ = 0;
@@ -144,12 +136,11 @@ void MapBuilder::clear() {
   hit_voxels_ = {};
   edge_candidates_ = {};
   changed_ = {};
-  touched_ = {};
-  random_share_ = {};
+  touched_ = std::vector<uint32_t>();  // which gives its memory back, unlike {}
+  random_share_ = 0.0;
   match_map_ = MatchMap(voxel_size_, config_.coarsest_voxel);
   far_ = {};
-  moments_.clear();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) moments_.emplace_back(voxelSize(l));
+  moments_ = MomentLevel(voxelSize(1));
 }
 
 Eigen::Vector3d MapBuilder::centroid(const VoxelIndex& v) const {
@@ -164,21 +155,17 @@ Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const
 }
 
 size_t MapBuilder::bytes() const {
-  size_t bytes = hit_grid_.bytes() + hits_.bytes() + hit_slots_.bytes() + hit_voxels_.bytes() +
-                 edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() +
-                 lone_voxels_.bytes() + scan_.neighbours.bytes() + far_.bytes();
-  for (const MomentLevel& level : moments_) bytes += level.bytes();
-  for (const auto& slots : touched_) bytes += slots.capacity() * sizeof(uint32_t);
-  return bytes;
+  return hit_grid_.bytes() + hits_.bytes() + hit_slots_.bytes() + hit_voxels_.bytes() +
+         edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() + lone_voxels_.bytes() +
+         scan_.neighbours.bytes() + far_.bytes() + moments_.bytes() +
+         touched_.capacity() * sizeof(uint32_t);
 }
 
 size_t MapBuilder::usedBytes() const {
-  size_t free = hit_grid_.freeBytes() + hit_slots_.freeCount(Slots::kNear) * sizeof(Hit) +
-                hit_voxels_.freeBytes() + edge_candidates_.freeBytes() + match_map_.freeBytes();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    free += match_map_.surfaces(l).slots().freeCount(Slots::kNear) * MomentLevel::kCellBytes;
-  }
-  return bytes() - free;
+  const size_t free_cells = match_map_.surfaces().slots().freeCount(Slots::kNear);
+  return bytes() - hit_grid_.freeBytes() - hit_slots_.freeCount(Slots::kNear) * sizeof(Hit) -
+         hit_voxels_.freeBytes() - edge_candidates_.freeBytes() - match_map_.freeBytes() -
+         free_cells * MomentLevel::kCellBytes;
 }
 
 std::string fullText(const MapConfig& config) {

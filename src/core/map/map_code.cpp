@@ -257,7 +257,7 @@ std::vector<VoxelIndex> difference(const std::vector<VoxelIndex>& a,
 void addEdgeSurfaces(const MatchMap& map, MapCode& code) {
   addCentroids(map.besideEdges(), map.voxelSize(0), code.beside);
   const std::vector<VoxelIndex> edges = inTreeOrder(map.edgeVoxels());
-  const SurfaceLevel& level = map.surfaces(1);
+  const SurfaceLevel& level = map.surfaces();
   code.without_surface = Flags(parentsOf(edges), [&](const VoxelIndex& v) {
     return !level.isSelected(v) || level.hasBack(level.slotOf(v));
   });
@@ -269,7 +269,7 @@ void makeEdgeSurfaces(const MapCode& code, const std::vector<VoxelPoint>& edges,
   const std::vector<VoxelPoint> points = together(edges, map.besideEdges());
   const std::vector<VoxelIndex> voxels = inTreeOrder(map.edgeVoxels());
   const std::vector<VoxelIndex> holding = parentsOf(voxels);
-  makeSurfaces(points, difference(holding, code.without_surface.of(holding)), map.surfaces(1));
+  makeSurfaces(points, difference(holding, code.without_surface.of(holding)), map.surfaces());
 }
 
 }  // namespace
@@ -284,9 +284,9 @@ std::string encoded(const MatchMap& map, Representation representation) {
   addCentroids(map.edges(), map.voxelSize(0), code.centroids);
   if (representation == Representation::kEdges) addEdgeSurfaces(map, code);
   if (representation != Representation::kEdges) {
-    addSurfaces(map.surfaces(1), occupied, code.surfaces);
+    addSurfaces(map.surfaces(), occupied, code.surfaces);
   }
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     occupied = parentsOf(occupied);
     addPlanes(map.planes(l), occupied, code.planes.emplace_back());
   }
@@ -301,7 +301,7 @@ MatchMap decoded(const std::string& bytes, const Config& config) {
   reader(code);
   reader.requireEnd();
   const bool of_edges = config.map.representation == Representation::kEdges;
-  if (code.planes.size() != MatchMap::kPlaneLevels - MatchMap::kFinestPlanes + 1) {
+  if (code.planes.size() != MatchMap::kCoarsestPlanes - MatchMap::kFinestPlanes + 1) {
     throw ArchiveError("it lacks a level of planes");
   }
   MatchMap map(config.voxel_size, config.map.coarsest_voxel);
@@ -315,8 +315,8 @@ MatchMap decoded(const std::string& bytes, const Config& config) {
   std::vector<VoxelIndex> occupied = together(parentsOf(hit), code.single.voxels());
   for (int l = 1; l < map.levels(); ++l) {
     for (const VoxelIndex& v : occupied) map.occupied(l).set(v);
-    if (l == 1 && !of_edges) makeSurfaces(code.surfaces, occupied, map.surfaces(1));
-    if (l >= MatchMap::kFinestPlanes && l <= MatchMap::kPlaneLevels) {
+    if (l == 1 && !of_edges) makeSurfaces(code.surfaces, occupied, map.surfaces());
+    if (l >= MatchMap::kFinestPlanes && l <= MatchMap::kCoarsestPlanes) {
       makePlanes(code.planes[static_cast<size_t>(l - MatchMap::kFinestPlanes)], occupied,
                  map.planes(l));
     }

@@ -82,8 +82,8 @@ MatchMap unionOf(const MatchMap& a, const MatchMap& b, Representation representa
   addVoxels(b.hitVoxels(), map.hitVoxels());
   addVoxels(b.edgeVoxels(), map.edgeVoxels());
   for (int l = 1; l < b.levels(); ++l) addVoxels(b.occupied(l), map.occupied(l));
-  addSurfaces(b.surfaces(1), inTreeOrder(b.occupied(1)), map.surfaces(1));
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+  addSurfaces(b.surfaces(), inTreeOrder(b.occupied(1)), map.surfaces());
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     addPlanes(b.planes(l), map.planes(l));
   }
   map.edges() = together(a.edges(), b.edges());

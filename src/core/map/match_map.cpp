@@ -9,31 +9,29 @@ namespace {
 
 int levelCount(double voxel_size, double coarsest_voxel) {
   const int coarsest = static_cast<int>(std::lround(std::log2(coarsest_voxel / voxel_size)));
-  return std::max(coarsest, MatchMap::kPlaneLevels) + 1;
+  return std::max(coarsest, MatchMap::kCoarsestPlanes) + 1;
 }
 
 }  // namespace
 
 MatchMap::MatchMap(double voxel_size, double coarsest_voxel)
     : voxel_size_(voxel_size),
-      occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))) {
-  for (int l = 1; l <= kSurfaceLevels; ++l) surfaces_.emplace_back(voxelSize(l));
-  for (int l = kFinestPlanes; l <= kPlaneLevels; ++l) planes_.emplace_back(voxelSize(l));
+      occupied_(static_cast<size_t>(levelCount(voxel_size, coarsest_voxel))),
+      surfaces_(voxelSize(1)) {
+  for (int l = kFinestPlanes; l <= kCoarsestPlanes; ++l) planes_.emplace_back(voxelSize(l));
 }
 
 size_t MatchMap::bytes() const {
   size_t bytes = edge_voxels_.bytes() + hit_voxels_.bytes() +
                  edges_.capacity() * sizeof(EdgeVoxel) +
-                 beside_edges_.capacity() * sizeof(VoxelPoint);
+                 beside_edges_.capacity() * sizeof(VoxelPoint) + surfaces_.bytes();
   for (const BitGrid<8>& bits : occupied_) bytes += bits.bytes();
-  for (const SurfaceLevel& level : surfaces_) bytes += level.bytes();
   for (const PlaneLevel& level : planes_) bytes += level.bytes();
   return bytes;
 }
 
 size_t MatchMap::freeBytes() const {
-  size_t bytes = 0;
-  for (const SurfaceLevel& level : surfaces_) bytes += level.freeBytes();
+  size_t bytes = surfaces_.freeBytes();
   for (const PlaneLevel& level : planes_) bytes += level.freeBytes();
   return bytes;
 }

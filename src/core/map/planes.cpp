@@ -12,12 +12,12 @@ void MapBuilder::fitPlanes() {
   if (config_.representation == Representation::kEdges) return;
   std::vector<VoxelIndex> blocks;
   for (const VoxelIndex& v : scan_.voxels) {
-    const VoxelIndex block = coarser(v, MatchMap::kPlaneLevels);
+    const VoxelIndex block = coarser(v, MatchMap::kCoarsestPlanes);
     if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
   }
   for (const VoxelIndex& v : scan_.cleared) {
-    blocks.push_back(coarser(v, MatchMap::kPlaneLevels));
-    for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+    blocks.push_back(coarser(v, MatchMap::kCoarsestPlanes));
+    for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
       match_map_.planes(l).set(coarser(v, l), {});  // its points left the map, not its memory
     }
   }
@@ -26,19 +26,18 @@ void MapBuilder::fitPlanes() {
 }
 
 void MapBuilder::fitPlanes(const VoxelIndex& block) {
-  MomentLevel& level = momentLevel(1);
-  const SurfaceLevel& surfaces = match_map_.surfaces(1);
-  const Eigen::Vector3d centre = voxelCentre(block, voxelSize(MatchMap::kPlaneLevels));
+  const SurfaceLevel& surfaces = match_map_.surfaces();
+  const Eigen::Vector3d centre = voxelCentre(block, voxelSize(MatchMap::kCoarsestPlanes));
   std::vector<VoxelSide> sides;
   std::vector<uint32_t> slots;
   surfaces.forEachVoxelInBlock(block, [&](const VoxelIndex& v, uint32_t first) {
     for (uint32_t slot = first; slot != Surface::kNone;
          slot = surfaces.surface(slot).back_surface) {
-      const MomentCell& cell = level.cell(slot);
+      const MomentCell& cell = moments_.cell(slot);
       if (cell.count == 0) continue;
       slots.push_back(first);
       sides.push_back({v,
-                       level.moments(slot).about(centre - voxelCentre(v, voxelSize(1))),
+                       moments_.moments(slot).about(centre - voxelCentre(v, voxelSize(1))),
                        {cell.view[0], cell.view[1], cell.view[2]}});
     }
   });
@@ -52,9 +51,9 @@ void MapBuilder::fitPlanes(const VoxelIndex& block) {
     for (; i < sides.size() && slots[i] == slot; ++i) {
       explained = explained && planes.explains(sides[i]);
     }
-    if (level.cell(slot).explained == explained) continue;
-    level.editCell(slot).explained = explained;
-    touch(1, slot);
+    if (moments_.cell(slot).explained == explained) continue;
+    moments_.editCell(slot).explained = explained;
+    touch(slot);
   }
 }
 

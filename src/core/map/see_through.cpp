@@ -68,9 +68,9 @@ void MapBuilder::clearSeenThrough(const Eigen::Vector3d& sensor) {
 void MapBuilder::lookThrough(const Ray& ray, const VoxelIndex& parent) {
   const int32_t block = hit_grid_.findBlock(coarser(parent, 2));
   if (block == BlockTable::kNone) return;
-  const uint32_t parent_slot = match_map_.surfaces(1).slotOf(parent);
+  const uint32_t parent_slot = match_map_.surfaces().slotOf(parent);
   const bool known = parent_slot != SurfaceLevel::kNone;  // else thawed and not hit again
-  if (known && moments(1).cell(parent_slot).last_scan == scans_)
+  if (known && moments_.cell(parent_slot).last_scan == scans_)
     return;  // then all its children are hit or beside
   for (int i = 0; i < kChildren; ++i) {
     const VoxelIndex v = childOf(parent, i);
@@ -89,7 +89,7 @@ bool MapBuilder::isSeenThrough(const Ray& ray, uint32_t parent_slot,
                                const Eigen::Vector3d& point) const {
   if (!ray.passes(point, kNear * voxel_size_, kBehind * voxel_size_)) return false;
   const Eigen::Vector3d normal =
-      parent_slot == SurfaceLevel::kNone ? Eigen::Vector3d::Zero() : moments(1).normal(parent_slot);
+      parent_slot == SurfaceLevel::kNone ? Eigen::Vector3d::Zero() : moments_.normal(parent_slot);
   return normal.isZero() ? ray.passes(point, kNear * voxel_size_, kBehindRough * voxel_size_)
                          : ray.crosses(point, normal, kBehind * voxel_size_);
 }
@@ -110,20 +110,17 @@ void MapBuilder::remove(const VoxelIndex& v) {
     ++cleared_count_;
   }
   edge_candidates_.reset(v);
-  if (match_map_.edgeVoxels().reset(v)) countEdges(1, coarser(v, 1));
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const uint32_t slot = match_map_.surfaces(l).slotOf(coarser(v, l));
-    if (slot != SurfaceLevel::kNone) touch(l, slot);
-  }
+  if (match_map_.edgeVoxels().reset(v)) countEdges(coarser(v, 1));
+  SurfaceLevel& surfaces = match_map_.surfaces();
+  const uint32_t slot = surfaces.slotOf(coarser(v, 1));
+  if (slot != SurfaceLevel::kNone) touch(slot);
   subtractMoments(v);
   dropHit(hit_grid_.find(v));
   hit_grid_.erase(v);
   VoxelIndex at = coarser(v, 1);
   bool left = anyChild(at, [&](const VoxelIndex& c) { return isHit(c); });
+  if (!left && slot != SurfaceLevel::kNone) moments_.erase(at, surfaces);
   for (int l = 1; !left; ++l) {
-    if (l <= MatchMap::kSurfaceLevels && match_map_.surfaces(l).slotOf(at) != SurfaceLevel::kNone) {
-      momentLevel(l).erase(at, match_map_.surfaces(l));
-    }
     BitGrid<8>& bits = match_map_.occupied(l);
     bits.reset(at);
     if (l + 1 == levels()) return;
@@ -132,15 +129,15 @@ void MapBuilder::remove(const VoxelIndex& v) {
   }
 }
 
-/// Takes the points of a voxel out of the coarser ones, which get the sums over what is left: a
+/// Takes the points of a voxel out of the coarser one, which gets the sums over what is left: a
 /// difference of large sums would be mostly rounding. How the points of a voxel scatter is not
 /// kept; those left are taken for their share of what scatters within all voxels of the coarser
-/// one. Voxels with two sides stay as they are: of which the points were is not known.
+/// one. One with two sides stays as it is: of which the points were is not known.
 void MapBuilder::subtractMoments(const VoxelIndex& v) {
   const VoxelIndex parent = coarser(v, 1);
   const Eigen::Vector3d origin = voxelCentre(parent, voxelSize(1));
-  const uint32_t slot = match_map_.surfaces(1).slotOf(parent);
-  if (slot == SurfaceLevel::kNone || match_map_.surfaces(1).hasBack(slot)) return;
+  const uint32_t slot = match_map_.surfaces().slotOf(parent);
+  if (slot == SurfaceLevel::kNone || match_map_.surfaces().hasBack(slot)) return;
   Moments all;
   Moments left;
   for (int i = 0; i < kChildren; ++i) {
@@ -150,27 +147,9 @@ void MapBuilder::subtractMoments(const VoxelIndex& v) {
     all += of_child;
     if (c != v) left += of_child;
   }
-  if (all.count != moments(1).cell(slot).count) return;  // thawed: not all is known of its children
-  left.outer += left.count / all.count * (moments(1).moments(slot).outer - all.outer);
-  momentLevel(1).setMoments(slot, left);
-  for (int l = 2; l <= MatchMap::kSurfaceLevels; ++l) sumChildren(l, coarser(v, l));
-}
-
-void MapBuilder::sumChildren(int l, const VoxelIndex& v) {
-  const SurfaceLevel& finer = match_map_.surfaces(l - 1);
-  const Eigen::Vector3d origin = voxelCentre(v, voxelSize(l));
-  Moments sum;
-  for (int i = 0; i < kChildren; ++i) {
-    const VoxelIndex c = childOf(v, i);
-    const uint32_t slot = finer.slotOf(c);
-    if (slot == SurfaceLevel::kNone && isHitWithin(c, l - 1)) return;
-    if (slot == SurfaceLevel::kNone) continue;
-    if (finer.hasBack(slot)) return;
-    sum += moments(l - 1).moments(slot).about(origin - voxelCentre(c, voxelSize(l - 1)));
-  }
-  const uint32_t slot = match_map_.surfaces(l).slotOf(v);
-  if (slot == SurfaceLevel::kNone || match_map_.surfaces(l).hasBack(slot)) return;
-  momentLevel(l).setMoments(slot, sum);
+  if (all.count != moments_.cell(slot).count) return;  // thawed: not all is known of its children
+  left.outer += left.count / all.count * (moments_.moments(slot).outer - all.outer);
+  moments_.setMoments(slot, left);
 }
 
 }  // namespace edgevox

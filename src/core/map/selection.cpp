@@ -13,81 +13,67 @@ constexpr double kNewShare = 0.25;  // of the voxels that came since the last ch
 
 }  // namespace
 
-void MapBuilder::selectNew(int l, uint32_t slot) {
-  MomentLevel& level = momentLevel(l);
-  if (config_.representation == Representation::kAll) select(l, slot, true);
+void MapBuilder::selectNew(uint32_t slot) {
+  const double lot = unitHash(moments_.voxel(slot));
+  if (config_.representation == Representation::kAll) select(slot, true);
   if (config_.representation == Representation::kSparse) {
-    level.editCell(slot).anchor = unitHash(level.voxel(slot)) < kNewShare;
-    select(l, slot, level.cell(slot).anchor);
+    moments_.editCell(slot).anchor = lot < kNewShare;
+    select(slot, lot < kNewShare);
   }
-  if (config_.representation == Representation::kRandom) {
-    select(l, slot, unitHash(level.voxel(slot)) < random_share_[static_cast<size_t>(l - 1)]);
-  }
+  if (config_.representation == Representation::kRandom) select(slot, lot < random_share_);
 }
 
-void MapBuilder::touch(int l, uint32_t slot) {
-  if (config_.representation == Representation::kAll) return;
-  touched_[static_cast<size_t>(l - 1)].push_back(slot);
+void MapBuilder::touch(uint32_t slot) {
+  if (config_.representation != Representation::kAll) touched_.push_back(slot);
 }
 
 void MapBuilder::chooseAnchorsAnew() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    MomentLevel& level = momentLevel(l);
-    const SurfaceLevel& surfaces = match_map_.surfaces(l);
-    auto& slots = touched_[static_cast<size_t>(l - 1)];
-    sortUnique(slots);
-    std::vector<size_t> blocks(slots.size());
-    for (size_t i = 0; i < slots.size(); ++i) {
-      blocks[i] = kNoBlock;
-      if (!level.hasCell(slots[i])) continue;
-      if (level.cell(slots[i]).hits >= config_.min_hits) level.findFlatAxis(slots[i]);
-      blocks[i] = surfaces.blockOf(level.voxel(slots[i]));
-    }
-    slots.clear();
-    sortUnique(blocks);
-    if (!blocks.empty() && blocks.back() == kNoBlock) blocks.pop_back();
-    for (const size_t block : blocks) {
-      chooseAnchors(level, surfaces, block, {config_.anchors, config_.min_hits});
-      if (config_.representation != Representation::kSparse) continue;
-      surfaces.forEachInBlock(block,
-                              [&](uint32_t slot) { select(l, slot, level.cell(slot).anchor); });
-    }
+  const SurfaceLevel& surfaces = match_map_.surfaces();
+  sortUnique(touched_);
+  std::vector<size_t> blocks(touched_.size());
+  for (size_t i = 0; i < touched_.size(); ++i) {
+    const uint32_t slot = touched_[i];
+    blocks[i] = kNoBlock;
+    if (!moments_.hasCell(slot)) continue;
+    if (moments_.cell(slot).hits >= config_.min_hits) moments_.findFlatAxis(slot);
+    blocks[i] = surfaces.blockOf(moments_.voxel(slot));
+  }
+  touched_.clear();
+  sortUnique(blocks);
+  if (!blocks.empty() && blocks.back() == kNoBlock) blocks.pop_back();
+  for (const size_t block : blocks) {
+    chooseAnchors(moments_, surfaces, block, {config_.anchors, config_.min_hits});
+    if (config_.representation != Representation::kSparse) continue;
+    surfaces.forEachInBlock(block,
+                            [this](uint32_t slot) { select(slot, moments_.cell(slot).anchor); });
   }
 }
 
 void MapBuilder::selectRandom() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const MomentLevel& level = moments(l);
-    size_t anchors = 0;
-    size_t candidates = 0;
-    for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (!level.hasCell(slot) || level.cell(slot).is_back) continue;
-      anchors += level.cell(slot).anchor ? 1 : 0;
-      candidates += level.cell(slot).hits >= config_.min_hits ? 1 : 0;
-    }
-    double& share = random_share_[static_cast<size_t>(l - 1)];
-    share = static_cast<double>(anchors) / static_cast<double>(candidates);
-    for (uint32_t slot = 0; slot < level.size(); ++slot) {
-      if (!level.hasCell(slot)) continue;
-      const MomentLevel::Cell& cell = level.cell(slot);
-      if (cell.is_back) continue;
-      select(l, slot, cell.hits >= config_.min_hits && unitHash(level.voxel(slot)) < share);
-    }
+  size_t anchors = 0;
+  size_t candidates = 0;
+  for (uint32_t slot = 0; slot < moments_.size(); ++slot) {
+    if (!moments_.hasCell(slot) || moments_.cell(slot).is_back) continue;
+    anchors += moments_.cell(slot).anchor ? 1 : 0;
+    candidates += moments_.cell(slot).hits >= config_.min_hits ? 1 : 0;
+  }
+  random_share_ = static_cast<double>(anchors) / static_cast<double>(candidates);
+  for (uint32_t slot = 0; slot < moments_.size(); ++slot) {
+    if (!moments_.hasCell(slot) || moments_.cell(slot).is_back) continue;
+    const double lot = unitHash(moments_.voxel(slot));
+    select(slot, moments_.cell(slot).hits >= config_.min_hits && lot < random_share_);
   }
 }
 
 /// Chooses anew among the voxels that were hit, or that hold edges or no longer do, since the last
 /// choice.
 void MapBuilder::selectEdges() {
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    auto& slots = touched_[static_cast<size_t>(l - 1)];
-    sortUnique(slots);
-    for (const uint32_t slot : slots) {
-      if (!moments(l).hasCell(slot) || moments(l).cell(slot).is_back) continue;
-      select(l, slot, moments(l).cell(slot).edge_children > 0);
-    }
-    slots.clear();
+  sortUnique(touched_);
+  for (const uint32_t slot : touched_) {
+    if (!moments_.hasCell(slot) || moments_.cell(slot).is_back) continue;
+    select(slot, moments_.cell(slot).edge_children > 0);
   }
+  touched_.clear();
 }
 
 }  // namespace edgevox

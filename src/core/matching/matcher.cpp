@@ -169,7 +169,7 @@ struct PlaneInMap {
 /// That of the finest voxel with one: where coarser ones have planes too, that is the flattest.
 PlaneInMap planeAt(const MatchMap& map, const Eigen::Vector3f& point,
                    const Eigen::Vector3f& to_sensor) {
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     const PlaneLevel& level = map.planes(l);
     const VoxelIndex v = level.voxelOf(point);
     const Plane* plane = level.find(v, to_sensor);
@@ -190,7 +190,7 @@ struct NearPoint {
 
   bool lookUp(const MatchMap& map, const Eigen::Vector3f& in_map, const Eigen::Vector3f& to_sensor,
               bool all_voxels) {
-    const SurfaceLevel& surfaces = map.surfaces(1);
+    const SurfaceLevel& surfaces = map.surfaces();
     plane = planeAt(map, in_map, to_sensor);
     around.voxel = surfaces.voxelOf(in_map);
     if (plane.known()) return true;
@@ -226,7 +226,7 @@ double robustWeight(double squared_distance) {
 /// Points that have moved to another voxel are given what is there.
 NormalEquations linearise(const MatchMap& map, std::vector<NearPoint>& near, const Pose& pose,
                           bool all_voxels) {
-  const SurfaceLevel& surfaces = map.surfaces(1);
+  const SurfaceLevel& surfaces = map.surfaces();
   NormalEquations equations;
   for (NearPoint& of_scan : near) {
     const Eigen::Vector3d lever = pose.linear() * of_scan.point;

@@ -34,9 +34,7 @@ Report levelsOf(const MatchMap& map) {
     level.add("voxel_m", map.voxelSize(l));
     level.add("occupied",
               uint64_t{l == 0 ? map.hitVoxels().voxelCount() : map.occupied(l).voxelCount()});
-    if (l > 0 && l <= MatchMap::kSurfaceLevels) {
-      level.add("surfaces", uint64_t{map.surfaces(l).selectedCount()});
-    }
+    if (l == 1) level.add("surfaces", uint64_t{map.surfaces().selectedCount()});
     levels.add(std::to_string(l), level);
   }
   return levels;

@@ -57,14 +57,12 @@ struct Matched {
   explicit Matched(const MapBuilder& map)
       : hit(voxelsOf(map.hitVoxels())), edges(voxelsOf(map.edgeVoxels())) {
     for (int l = 1; l < map.levels(); ++l) occupied.push_back(voxelsOf(map.matchMap().occupied(l)));
-    for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-      const SurfaceLevel& level = map.matchMap().surfaces(l);
-      for (const VoxelIndex& v : occupied[static_cast<size_t>(l - 1)]) {
-        const auto around = level.around(v, false);
-        if (around.count == 0 || around.slots[0] != level.slotOf(v)) continue;
-        for (uint32_t s = around.slots[0]; s != Surface::kNone; s = level.surface(s).back_surface) {
-          surfaces[static_cast<size_t>(l - 1)][v].push_back(level.surface(s));
-        }
+    const SurfaceLevel& level = map.matchMap().surfaces();
+    for (const VoxelIndex& v : occupied[0]) {
+      const auto around = level.around(v, false);
+      if (around.count == 0 || around.slots[0] != level.slotOf(v)) continue;
+      for (uint32_t s = around.slots[0]; s != Surface::kNone; s = level.surface(s).back_surface) {
+        surfaces[v].push_back(level.surface(s));
       }
     }
   }
@@ -72,20 +70,18 @@ struct Matched {
   Voxels hit;
   Voxels edges;
   std::vector<Voxels> occupied;
-  std::array<std::map<VoxelIndex, std::vector<Surface>>, MatchMap::kSurfaceLevels> surfaces;
+  std::map<VoxelIndex, std::vector<Surface>> surfaces;
 };
 
 void expectSameSurfaces(const Matched& expected, const Matched& actual) {
-  for (size_t l = 0; l < expected.surfaces.size(); ++l) {
-    for (const auto& [v, sides] : expected.surfaces[l]) {
-      const auto found = actual.surfaces[l].find(v);
-      ASSERT_NE(actual.surfaces[l].end(), found);
-      ASSERT_EQ(sides.size(), found->second.size());
-      for (size_t i = 0; i < sides.size(); ++i) {
-        ASSERT_EQ(sides[i].mean, found->second[i].mean);
-        ASSERT_EQ(sides[i].information, found->second[i].information);
-        ASSERT_EQ(sides[i].side, found->second[i].side);
-      }
+  for (const auto& [v, sides] : expected.surfaces) {
+    const auto found = actual.surfaces.find(v);
+    ASSERT_NE(actual.surfaces.end(), found);
+    ASSERT_EQ(sides.size(), found->second.size());
+    for (size_t i = 0; i < sides.size(); ++i) {
+      ASSERT_EQ(sides[i].mean, found->second[i].mean);
+      ASSERT_EQ(sides[i].information, found->second[i].information);
+      ASSERT_EQ(sides[i].side, found->second[i].side);
     }
   }
 }
@@ -97,7 +93,7 @@ TEST(Freezing, KeepsAllThatScansAreMatchedTo) {
   map.label();
   const Matched before(map);
   ASSERT_LT(1000U, before.edges.size());
-  ASSERT_LT(200U, before.surfaces[0].size());
+  ASSERT_LT(200U, before.surfaces.size());
   std::map<VoxelIndex, Vector3d> centroids;
   for (const VoxelIndex& v : before.hit) centroids[v] = map.centroid(v);
 
@@ -149,7 +145,7 @@ TEST(Freezing, WhatComesBackKeepsItsSelection) {
   const Matched after(map);
   EXPECT_TRUE(difference(before.hit, after.hit).empty());
   expectSameSurfaces(before, after);
-  EXPECT_EQ(before.surfaces[0].size(), after.surfaces[0].size());
+  EXPECT_EQ(before.surfaces.size(), after.surfaces.size());
   visitor.visit(Vector3d::Zero(), 20, map);
   EXPECT_EQ(0U, std::count_if(before.hit.begin(), before.hit.end(), [&](const VoxelIndex& v) {
               return v.x < 1000 && !map.hitVoxels().test(v);

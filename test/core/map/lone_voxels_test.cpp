@@ -141,18 +141,18 @@ TEST(Memory, NoNewVoxelsEnterAMapThatIsAsLargeAsItMayBe) {
   EXPECT_EQ(0U, map.centroidsPastMemory());
   EXPECT_FALSE(map.isFull());
   const size_t bytes = map.bytes();
-  const size_t cells = map.moments(1).size();
+  const size_t cells = map.moments().size();
   insert(place, map);
   EXPECT_EQ(place.size(), map.centroidsPastMemory());
-  EXPECT_EQ(cells, map.moments(1).size());
+  EXPECT_EQ(cells, map.moments().size());
   EXPECT_TRUE(map.isFull());
   EXPECT_NE(std::string::npos, fullText(config).find("map/memory, 1 MB"));
   EXPECT_LE(map.bytes(), bytes + bytes / 10);
   const Vector3d known = room().front();
-  const uint32_t slot = map.matchMap().surfaces(1).slotOf(voxelAt(known, 1.0 / map.voxelSize(1)));
-  const uint32_t count = map.moments(1).cell(slot).count;
+  const uint32_t slot = map.matchMap().surfaces().slotOf(voxelAt(known, 1.0 / map.voxelSize(1)));
+  const uint32_t count = map.moments().cell(slot).count;
   insert({known}, map);
-  EXPECT_EQ(count + 1, map.moments(1).cell(slot).count);  // but known ones are kept up to date
+  EXPECT_EQ(count + 1, map.moments().cell(slot).count);  // but known ones are kept up to date
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ std::map<VoxelIndex, BlockPlanes> planesAtOnce(const std::vector<Centroids>& sca
 }
 
 void expectPlanes(const std::map<VoxelIndex, BlockPlanes>& expected, const MatchMap& map) {
-  std::array<size_t, MatchMap::kPlaneLevels + 1> counts{};
+  std::array<size_t, MatchMap::kCoarsestPlanes + 1> counts{};
   for (const auto& [block, planes] : expected) {
     planes.forEachVoxel([&](int level, const VoxelIndex& v, const VoxelPlanes& of_voxel) {
       const VoxelPlanes* known = map.planes(level).find(v);
@@ -121,7 +121,7 @@ void expectPlanes(const std::map<VoxelIndex, BlockPlanes>& expected, const Match
       EXPECT_NEAR(of_voxel.sides[0].offset, known->sides[0].offset, 1e-3F);
     });
   }
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     EXPECT_EQ(counts[static_cast<size_t>(l)], map.planes(l).count()) << l;
   }
 }
@@ -148,11 +148,11 @@ Voxels selectedAtOnce(const std::vector<Centroids>& scans, const Voxels& edges,
   return sorted(std::move(selected));
 }
 
-Voxels selectedIn(const MapBuilder& map, int level, const AccumulatedCells& cells) {
+Voxels selectedIn(const MapBuilder& map, const AccumulatedCells& cells) {
   Voxels selected;
   for (const auto& entry : cells) {
-    const uint32_t slot = map.matchMap().surfaces(level).slotOf(entry.first);
-    if (map.moments(level).cell(slot).selected) selected.push_back(entry.first);
+    const uint32_t slot = map.matchMap().surfaces().slotOf(entry.first);
+    if (map.moments().cell(slot).selected) selected.push_back(entry.first);
   }
   return selected;
 }
@@ -166,8 +166,8 @@ void expectMapOf(const std::vector<Centroids>& scans, const MapBuilder& map,
   const auto planes = planesAtOnce(scans);
   expectPlanes(planes, map.matchMap());
   const Voxels selected = selectedAtOnce(scans, edges, planes, config);
-  EXPECT_TRUE(sameVoxels(selected, selectedIn(map, 1, accumulate(scans, 1))));
-  EXPECT_EQ(selected.size(), map.matchMap().surfaces(1).selectedCount());
+  EXPECT_TRUE(sameVoxels(selected, selectedIn(map, accumulate(scans, 1))));
+  EXPECT_EQ(selected.size(), map.matchMap().surfaces().selectedCount());
 }
 
 MapBuilder mapOf(const std::vector<Centroids>& scans, const MapConfig& config, int threads = 1) {
@@ -275,9 +275,9 @@ TEST(Hits, CountScansNotCentroids) {
   map.insert({three[0]}, farSensor());
   EXPECT_TRUE(map.hitVoxels().test(v));
   EXPECT_EQ(3U, map.scans());
-  const uint32_t slot = map.matchMap().surfaces(1).slotOf({5, 0, 0});
-  EXPECT_EQ(2, map.moments(1).cell(slot).hits);
-  EXPECT_EQ(4U, map.moments(1).cell(slot).count);
+  const uint32_t slot = map.matchMap().surfaces().slotOf({5, 0, 0});
+  EXPECT_EQ(2, map.moments().cell(slot).hits);
+  EXPECT_EQ(4U, map.moments().cell(slot).count);
 }
 
 TEST(Centroid, IsTheMeanOfAllThatFellIn) {
@@ -307,30 +307,26 @@ TEST(Representations, AllSelectsWhatWasHitOftenEnough) {
   const MapConfig config = withRepresentation(Representation::kAll);
   MapBuilder map = makeMap(config);
   for (const Centroids& scan : scans) map.insert(scan, farSensor());
-  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
-    const AccumulatedCells cells = accumulate(scans, level);
-    EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), selectedIn(map, level, cells)));
-  }
-  const Voxels before = selectedIn(map, 1, accumulate(scans, 1));
+  const AccumulatedCells cells = accumulate(scans, 1);
+  const Voxels before = selectedIn(map, cells);
+  EXPECT_TRUE(sameVoxels(withHits(cells, config.min_hits), before));
   map.label();  // for the edges alone; the selection stays
   EXPECT_GT(map.edgeVoxels().voxelCount(), 100U);
-  EXPECT_TRUE(sameVoxels(before, selectedIn(map, 1, accumulate(scans, 1))));
+  EXPECT_TRUE(sameVoxels(before, selectedIn(map, cells)));
 }
 
 TEST(Representations, RandomSelectsAsManyAsSparse) {
   const auto scans = randomScans(13, 4, {140, 110, 60});
   const MapBuilder sparse = mapOf(scans, withRepresentation(Representation::kSparse));
   const MapBuilder random = mapOf(scans, withRepresentation(Representation::kRandom));
-  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
-    const auto expected = static_cast<double>(sparse.matchMap().surfaces(level).selectedCount());
-    const auto actual = static_cast<double>(random.matchMap().surfaces(level).selectedCount());
-    RecordProperty("sparse_" + std::to_string(level), static_cast<int>(expected));
-    RecordProperty("random_" + std::to_string(level), static_cast<int>(actual));
-    EXPECT_NEAR(expected, actual, 3 * std::sqrt(expected)) << level;
-    const AccumulatedCells cells = accumulate(scans, level);
-    const Voxels often = withHits(cells, MapConfig{}.min_hits);
-    EXPECT_TRUE(difference(selectedIn(random, level, cells), often).empty());
-  }
+  const auto expected = static_cast<double>(sparse.matchMap().surfaces().selectedCount());
+  const auto actual = static_cast<double>(random.matchMap().surfaces().selectedCount());
+  RecordProperty("sparse", static_cast<int>(expected));
+  RecordProperty("random", static_cast<int>(actual));
+  EXPECT_NEAR(expected, actual, 3 * std::sqrt(expected));
+  const AccumulatedCells cells = accumulate(scans, 1);
+  const Voxels often = withHits(cells, MapConfig{}.min_hits);
+  EXPECT_TRUE(difference(selectedIn(random, cells), often).empty());
 }
 
 TEST(Representations, SparsePacksSmallerThanAll) {
@@ -380,7 +376,7 @@ TEST(OutOfRange, CentroidsAreIgnoredAndCounted) {
   map.insert(bad, farSensor());
   EXPECT_EQ(2 * bad.size(), map.ignoredCentroids());
   EXPECT_EQ(0U, map.hitVoxels().voxelCount());
-  EXPECT_EQ(0U, map.matchMap().surfaces(1).slotCount());
+  EXPECT_EQ(0U, map.matchMap().surfaces().slotCount());
 }
 
 TEST(OutOfRange, VoxelsNearTheLimitAreKept) {

@@ -176,13 +176,13 @@ TEST_P(Decoded, HasTheEdgesWithinASixteenthOfAVoxel) {
   }
 }
 
-/// Mean of the centroids in a voxel of a level that are saved with the representation `edges`.
-Eigen::Vector3f meanOf(const MatchMap& map, const VoxelIndex& v, int level) {
+/// Mean of the centroids in a voxel of level 1 that are saved with the representation `edges`.
+Eigen::Vector3f meanOf(const MatchMap& map, const VoxelIndex& v) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float count = 0;
   const auto add = [&](const auto& points) {
     for (const auto& point : points) {
-      if (coarser(point.voxel, level) != v) continue;
+      if (coarser(point.voxel, 1) != v) continue;
       sum += point.centroid;
       ++count;
     }
@@ -194,19 +194,17 @@ Eigen::Vector3f meanOf(const MatchMap& map, const VoxelIndex& v, int level) {
 
 TEST_P(Decoded, HasTheSelectedSurfaces) {
   const bool of_edges = GetParam() == Representation::kEdges;
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& a = before_.surfaces(l);
-    const SurfaceLevel& b = after_.surfaces(l);
-    EXPECT_GT(b.selectedCount(), 0U);
-    before_.occupied(l).forEach([&](const VoxelIndex& v) {
-      const bool two_sided = a.isSelected(v) && a.hasBack(a.slotOf(v));
-      ASSERT_EQ(a.isSelected(v) && !(of_edges && two_sided), b.isSelected(v));
-      if (!b.isSelected(v)) return;
-      ASSERT_EQ(two_sided, b.hasBack(b.slotOf(v)));
-      const Eigen::Vector3f mean = of_edges ? meanOf(before_, v, l) : a.surface(a.slotOf(v)).mean;
-      EXPECT_LT((mean - b.surface(b.slotOf(v)).mean).norm(), 0.03 * before_.voxelSize(l));
-    });
-  }
+  const SurfaceLevel& a = before_.surfaces();
+  const SurfaceLevel& b = after_.surfaces();
+  EXPECT_GT(b.selectedCount(), 0U);
+  before_.occupied(1).forEach([&](const VoxelIndex& v) {
+    const bool two_sided = a.isSelected(v) && a.hasBack(a.slotOf(v));
+    ASSERT_EQ(a.isSelected(v) && !(of_edges && two_sided), b.isSelected(v));
+    if (!b.isSelected(v)) return;
+    ASSERT_EQ(two_sided, b.hasBack(b.slotOf(v)));
+    const Eigen::Vector3f mean = of_edges ? meanOf(before_, v) : a.surface(a.slotOf(v)).mean;
+    EXPECT_LT((mean - b.surface(b.slotOf(v)).mean).norm(), 0.03 * before_.voxelSize(1));
+  });
 }
 
 TEST_P(Decoded, IsTheSameOnceMore) {

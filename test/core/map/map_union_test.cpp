@@ -76,27 +76,25 @@ TEST_P(Joined, HasTheSurfacesOfTheFirstAndElseOfTheSecond) {
   const MatchMap in_a = a();
   const MatchMap in_b = b();
   const MatchMap map = joined();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    size_t of_a = 0;
-    size_t of_b = 0;
-    for (const VoxelIndex& v : voxelsOf(map.occupied(l))) {
-      const bool first = in_a.surfaces(l).isSelected(v);
-      const SurfaceLevel& from = first ? in_a.surfaces(l) : in_b.surfaces(l);
-      ASSERT_EQ(from.isSelected(v), map.surfaces(l).isSelected(v));
-      if (!from.isSelected(v)) continue;
-      ++(first ? of_a : of_b);
-      const uint32_t slot = map.surfaces(l).slotOf(v);
-      ASSERT_TRUE(sameSurface(from.surface(from.slotOf(v)), map.surfaces(l).surface(slot)));
-      ASSERT_EQ(from.hasBack(from.slotOf(v)), map.surfaces(l).hasBack(slot));
-      if (!from.hasBack(from.slotOf(v))) continue;
-      const Surface& back = from.surface(from.surface(from.slotOf(v)).back_surface);
-      const uint32_t back_slot = map.surfaces(l).surface(slot).back_surface;
-      ASSERT_TRUE(sameSurface(back, map.surfaces(l).surface(back_slot)));
-    }
-    EXPECT_GT(of_a, 0U) << l;
-    EXPECT_GT(of_b, 0U) << l;
-    EXPECT_EQ(of_a + of_b, map.surfaces(l).selectedCount());
+  size_t of_a = 0;
+  size_t of_b = 0;
+  for (const VoxelIndex& v : voxelsOf(map.occupied(1))) {
+    const bool first = in_a.surfaces().isSelected(v);
+    const SurfaceLevel& from = first ? in_a.surfaces() : in_b.surfaces();
+    ASSERT_EQ(from.isSelected(v), map.surfaces().isSelected(v));
+    if (!from.isSelected(v)) continue;
+    ++(first ? of_a : of_b);
+    const uint32_t slot = map.surfaces().slotOf(v);
+    ASSERT_TRUE(sameSurface(from.surface(from.slotOf(v)), map.surfaces().surface(slot)));
+    ASSERT_EQ(from.hasBack(from.slotOf(v)), map.surfaces().hasBack(slot));
+    if (!from.hasBack(from.slotOf(v))) continue;
+    const Surface& back = from.surface(from.surface(from.slotOf(v)).back_surface);
+    const uint32_t back_slot = map.surfaces().surface(slot).back_surface;
+    ASSERT_TRUE(sameSurface(back, map.surfaces().surface(back_slot)));
   }
+  EXPECT_GT(of_a, 0U);
+  EXPECT_GT(of_b, 0U);
+  EXPECT_EQ(of_a + of_b, map.surfaces().selectedCount());
 }
 
 TEST_P(Joined, WithItselfIsTheSame) {

@@ -148,7 +148,7 @@ TEST_F(SeeThrough, AllLevelsAgree) {
   for (int l = 1; l < map_.levels(); ++l) {
     Voxels expected;
     if (l == 1) {
-      const MomentLevel& moments = map_.moments(1);
+      const MomentLevel& moments = map_.moments();
       for (uint32_t slot = 0; slot < moments.size(); ++slot) {
         if (moments.cell(slot).hits > 0) expected.push_back(moments.voxel(slot));
       }
@@ -169,13 +169,9 @@ TEST_F(SeeThrough, LabelsAreThoseOfWhatIsLeft) {
   map_.label();
   ASSERT_LT(100U, map_.clearedVoxels());
   EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map_.hitVoxels())), voxelsOf(map_.edgeVoxels())));
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& surfaces = map_.matchMap().surfaces(l);
-    Voxels children = voxelsOf(map_.edgeVoxels());
-    for (VoxelIndex& v : children) v = coarser(v, l);
-    for (const VoxelIndex& v : sorted(children)) {
-      EXPECT_LT(0, map_.moments(l).cell(surfaces.slotOf(v)).edge_children);
-    }
+  const SurfaceLevel& surfaces = map_.matchMap().surfaces();
+  for (const VoxelIndex& v : voxelsOf(map_.edgeVoxels())) {
+    EXPECT_LT(0, map_.moments().cell(surfaces.slotOf(coarser(v, 1))).edge_children);
   }
 }
 
@@ -196,10 +192,8 @@ TEST_F(SeeThrough, MatchingSeesOnlyWhatIsLeft) {
   map_.label();
   map_.prepareAll();
   const Eigen::Vector3f front = Vector3d(kBoxMin.x(), 0, -0.1).cast<float>();
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& level = map_.matchMap().surfaces(l);
-    EXPECT_EQ(0U, level.around(level.voxelOf(front), true).count) << "level " << l;
-  }
+  const SurfaceLevel& level = map_.matchMap().surfaces();
+  EXPECT_EQ(0U, level.around(level.voxelOf(front), true).count);
 }
 
 TEST_F(SeeThrough, ClearForgetsTheCount) {

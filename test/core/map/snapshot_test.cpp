@@ -31,7 +31,7 @@ class Content {
     for (int level = 1; level < map.levels(); ++level) {
       for (const VoxelIndex& v : voxelsOf(map.matchMap().occupied(level))) {
         add(v, Eigen::Vector3d::Zero());
-        if (level <= MatchMap::kSurfaceLevels) addSurfaces(map, level, v);
+        if (level == 1) addSurfaces(map, v);
       }
     }
     for (const size_t n : {map.hitVoxelCount(), map.frozenRegions(), map.thawedRegions()}) add(n);
@@ -51,13 +51,13 @@ class Content {
     for (const double x : {at.x(), at.y(), at.z()}) add(x);
   }
 
-  void addSurfaces(const MapBuilder& map, int level, const VoxelIndex& v) {
-    const SurfaceLevel& surfaces = map.matchMap().surfaces(level);
+  void addSurfaces(const MapBuilder& map, const VoxelIndex& v) {
+    const SurfaceLevel& surfaces = map.matchMap().surfaces();
     const uint32_t first = surfaces.slotOf(v);
     for (uint32_t slot = first; slot != Surface::kNone;
          slot = surfaces.surface(slot).back_surface) {
-      add(map.moments(level).hasCell(slot));
-      if (map.moments(level).hasCell(slot)) addCell(map.moments(level).cell(slot));
+      add(map.moments().hasCell(slot));
+      if (map.moments().hasCell(slot)) addCell(map.moments().cell(slot));
       const Surface& surface = surfaces.surface(slot);
       add(surface.information);
       for (int i = 0; i < 3; ++i) {

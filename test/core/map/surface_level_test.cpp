@@ -96,14 +96,12 @@ struct GaussianErrors {
 /// Of a map that has seen no surface from behind.
 GaussianErrors errorsOf(const MapBuilder& map, const std::vector<Centroids>& scans, bool all) {
   GaussianErrors errors;
-  for (int level = 1; level <= MatchMap::kSurfaceLevels; ++level) {
-    const SurfaceLevel& surfaces = map.matchMap().surfaces(level);
-    for (const auto& [v, cell] : accumulate(scans, level)) {
-      const uint32_t slot = surfaces.slotOf(v);
-      if (!all && !map.moments(level).cell(slot).selected) continue;
-      EXPECT_FALSE(surfaces.hasBack(slot));
-      errors.add(surfaces.surface(slot), gaussianOf(cell.centroids, {}, map.voxelSize(level)));
-    }
+  const SurfaceLevel& surfaces = map.matchMap().surfaces();
+  for (const auto& [v, cell] : accumulate(scans, 1)) {
+    const uint32_t slot = surfaces.slotOf(v);
+    if (!all && !map.moments().cell(slot).selected) continue;
+    EXPECT_FALSE(surfaces.hasBack(slot));
+    errors.add(surfaces.surface(slot), gaussianOf(cell.centroids, {}, map.voxelSize(1)));
   }
   return errors;
 }

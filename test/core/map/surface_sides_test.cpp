@@ -22,7 +22,7 @@ MapBuilder mapOfAllVoxels() {
 
 /// A ceiling between two storeys, seen from above first.
 struct Ceiling {
-  static constexpr double kTop = 0.55;  // [m], both sides in one voxel of either level
+  static constexpr double kTop = 0.55;  // [m], both sides in one voxel of level 1
   static constexpr double kBottom = 0.45;
 
   explicit Ceiling(int scans) : map(mapOfAllVoxels()) {
@@ -47,21 +47,19 @@ struct Ceiling {
 
 TEST(Sides, OfAThinSlabAreTwoSurfaces) {
   const Ceiling ceiling(8);
-  for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-    const SurfaceLevel& surfaces = ceiling.map.matchMap().surfaces(l);
-    const MomentLevel& moments = ceiling.map.moments(l);
-    const size_t voxels = ceiling.map.matchMap().occupied(l).voxelCount();
-    EXPECT_EQ(voxels, surfaces.selectedCount());
-    EXPECT_EQ(2 * voxels, moments.selectedSurfaces());
-    for (uint32_t slot = 0; slot < moments.size(); ++slot) {
-      if (moments.cell(slot).is_back) continue;
-      ASSERT_TRUE(surfaces.hasBack(slot));
-      const Surface& top = surfaces.surface(slot);
-      const Surface& bottom = surfaces.surface(top.back_surface);
-      EXPECT_NEAR(Ceiling::kTop, static_cast<double>(top.mean.z()), 0.005);
-      EXPECT_NEAR(Ceiling::kBottom, static_cast<double>(bottom.mean.z()), 0.005);
-      EXPECT_EQ(8, moments.cell(slot).hits);  // of the voxel, whichever side
-    }
+  const SurfaceLevel& surfaces = ceiling.map.matchMap().surfaces();
+  const MomentLevel& moments = ceiling.map.moments();
+  const size_t voxels = ceiling.map.matchMap().occupied(1).voxelCount();
+  EXPECT_EQ(voxels, surfaces.selectedCount());
+  EXPECT_EQ(2 * voxels, moments.selectedSurfaces());
+  for (uint32_t slot = 0; slot < moments.size(); ++slot) {
+    if (moments.cell(slot).is_back) continue;
+    ASSERT_TRUE(surfaces.hasBack(slot));
+    const Surface& top = surfaces.surface(slot);
+    const Surface& bottom = surfaces.surface(top.back_surface);
+    EXPECT_NEAR(Ceiling::kTop, static_cast<double>(top.mean.z()), 0.005);
+    EXPECT_NEAR(Ceiling::kBottom, static_cast<double>(bottom.mean.z()), 0.005);
+    EXPECT_EQ(8, moments.cell(slot).hits);  // of the voxel, whichever side
   }
 }
 
@@ -74,16 +72,14 @@ TEST(Sides, PointsMatchTheirOwn) {
     for (const bool above : {true, false}) {
       const Vector3d& sensor = above ? ceiling.kAbove : ceiling.kBelow;
       const Vector3d to_sensor = (sensor - point).normalized();
-      for (int l = 1; l <= MatchMap::kSurfaceLevels; ++l) {
-        float distance = 0.0F;
-        const SurfaceLevel& level = ceiling.map.matchMap().surfaces(l);
-        const Eigen::Vector3f at = point.cast<float>();
-        const Surface* nearest = level.nearest(level.around(level.voxelOf(at), false), at,
-                                               to_sensor.cast<float>(), distance);
-        ASSERT_NE(nullptr, nearest);
-        ASSERT_NEAR(above ? Ceiling::kTop : Ceiling::kBottom,
-                    static_cast<double>(nearest->mean.z()), 0.005);
-      }
+      float distance = 0.0F;
+      const SurfaceLevel& level = ceiling.map.matchMap().surfaces();
+      const Eigen::Vector3f at = point.cast<float>();
+      const Surface* nearest = level.nearest(level.around(level.voxelOf(at), false), at,
+                                             to_sensor.cast<float>(), distance);
+      ASSERT_NE(nullptr, nearest);
+      ASSERT_NEAR(above ? Ceiling::kTop : Ceiling::kBottom, static_cast<double>(nearest->mean.z()),
+                  0.005);
     }
   }
 }
@@ -103,7 +99,7 @@ TEST(Sides, ASurfaceSeenFromOneSideIsNotMatchedFromBehind) {
   float distance = 0.0F;
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   const Eigen::Vector3f point(0.5F, 0.5F, 0.5F);
-  const SurfaceLevel& level = map.matchMap().surfaces(1);
+  const SurfaceLevel& level = map.matchMap().surfaces();
   const auto around = level.around(level.voxelOf(point), false);
   EXPECT_NE(nullptr, level.nearest(around, point, up, distance));
   EXPECT_EQ(nullptr, level.nearest(around, point, -up, distance));

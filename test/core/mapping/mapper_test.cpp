@@ -47,8 +47,8 @@ struct MapState {
       : scans(mapper.map().scans()),
         hit(voxelsOf(mapper.map().hitVoxels())),
         edges(voxelsOf(mapper.map().edgeVoxels())),
-        selected(mapper.map().matchMap().surfaces(1).selectedCount()),
-        cells(mapper.map().moments(1).size()) {
+        selected(mapper.map().matchMap().surfaces().selectedCount()),
+        cells(mapper.map().moments().size()) {
     for (int level = 1; level < mapper.map().levels(); ++level) {
       occupied.push_back(voxelsOf(mapper.map().matchMap().occupied(level)));
     }
