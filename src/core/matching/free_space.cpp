@@ -32,7 +32,7 @@ double crossing(const Line& line, const Plane& plane, const Eigen::Vector3d& cen
 /// Whether the line crosses a plane of a voxel of level 1 where an occupied voxel is.
 bool isBlockedIn(const MatchMap& map, const BitGrid<16>& hit_voxels, const Line& line,
                  const VoxelIndex& parent) {
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kPlaneLevels; ++l) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     const VoxelIndex v = coarser(parent, l - 1);
     const VoxelPlanes* planes = map.planes(l).find(v);
     if (planes == nullptr) continue;
