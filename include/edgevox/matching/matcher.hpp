@@ -23,8 +23,8 @@ struct MatchRequest {
   Pose guess = Pose::Identity();  ///< T_map_sensor
   double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
   double far_hit_ratio = 1.0;     ///< the same for a match farther than the next two
-  double far_translation = 1.0;   ///< from the guess [m]
-  double far_rotation = 0.35;     ///< the same [rad]
+  double far_translation = 2.0;   ///< from the guess [m]
+  double far_rotation = 0.7;      ///< the same [rad]
   double most_blocked = 1.0;      ///< share of blocked lines of sight of an accepted match ...
   /// ... unless it is near the guess and has trusted_hit_ratio: glass and doors let lines pass
   double most_blocked_near = 1.0;

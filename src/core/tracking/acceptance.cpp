@@ -2,17 +2,20 @@
 #include "edgevox/tracking/acceptance.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "edgevox/statistics.hpp"
 
 namespace edgevox {
 namespace {
 
-constexpr double kTrusted = 0.95;            // of the running median of the hit ratios
-constexpr double kMostBlockedAtFirst = 0.2;  // lines of sight, before there is a history
-constexpr double kBlocked = 0.08;            // the same later, more than ...
-constexpr double kBlockedNear = 0.15;        // and so much more of a match near the prediction
-constexpr double kTimesBlocked = 2.5;        // ... so many times their running median
+constexpr double kTrusted = 0.95;                     // of the running median of the hit ratios
+constexpr double kFarTranslation = 1.0;               // from the prediction [m]
+constexpr double kFarRotation = 20.0 * M_PI / 180.0;  // [rad]
+constexpr double kMostBlockedAtFirst = 0.2;           // lines of sight, before there is a history
+constexpr double kBlocked = 0.08;                     // the same later, more than ...
+constexpr double kBlockedNear = 0.15;  // and so much more of a match near the prediction
+constexpr double kTimesBlocked = 2.5;  // ... so many times their running median
 
 }  // namespace
 
@@ -31,6 +34,8 @@ void Acceptance::setLimits(bool was_lost, MatchRequest& request) const {
   request.required_hit_ratio =
       was_lost ? request.far_hit_ratio
                : std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio);
+  request.far_translation = kFarTranslation;
+  request.far_rotation = kFarRotation;
   request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
   request.most_blocked_near = request.most_blocked + (was_lost ? 0.0 : kBlockedNear);
 }
