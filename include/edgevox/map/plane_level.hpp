@@ -32,7 +32,9 @@ struct Plane {
 struct VoxelPlanes {
   std::array<Plane, 2> sides;
   uint32_t count = 0;
-  uint32_t points = 0;  ///< in the voxel when they were fitted
+  uint32_t points = 0;     ///< in the voxel when they were fitted
+  uint32_t voxels = 0;     ///< sides of voxels of level 1 that held these
+  bool forgotten = false;  ///< whether some of these have been dropped since
 
   void add(const Plane& plane) { sides[count++] = plane; }
   const Plane* begin() const { return sides.data(); }
@@ -40,7 +42,7 @@ struct VoxelPlanes {
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.sides, self.count, self.points);
+    bytes(self.sides, self.count, self.points, self.voxels, self.forgotten);
   }
 };
 

@@ -19,7 +19,7 @@ constexpr double kSensorSigma = 0.02;     // [m]
 constexpr float kAsFlat = 2.0F;       // information of a finer plane that a coarser one replaces
 constexpr double kExplained = 9.0;    // squared deviation from a plane
 constexpr double kLeastFilled = 0.2;  // of kurtosis - skewness^2 - 1
-constexpr uint32_t kForgotten = 2;    // times fewer points than a plane was fitted to
+constexpr uint32_t kFewer = 2;        // points or their voxels than planes were fitted to
 constexpr double kLeast = 1e-8;       // variance [m^2]
 
 /// Principal axes of points and their variances along them.
@@ -67,18 +67,17 @@ Moments momentsOf(const Sides& sides) {
   return moments;
 }
 
-/// Whether the points lie on two parallel lines, which always have a plane: rings of a lidar on a
-/// floor and on the wall beside it. Kurtosis - skewness^2 - 1 is 0 for two values, .8 where all
-/// between two values are alike.
-bool isPairOfLines(const Sides& sides, const Moments& all, const Eigen::Vector3d& across) {
-  const double centre = across.dot(all.sum) / all.count;
+/// Whether the points lie at two places along an axis. Kurtosis - skewness^2 - 1 is 0 for two
+/// values, .8 where all between two values are alike.
+bool areAtTwoPlaces(const Sides& sides, const Moments& all, const Eigen::Vector3d& axis) {
+  const double centre = axis.dot(all.sum) / all.count;
   double m2 = 0;
   double m3 = 0;
   double m4 = 0;
   for (const VoxelSide* side : sides) {
     const double n = side->moments.count;
-    const double mean = across.dot(side->moments.sum) / n;
-    const double within = std::max(0.0, across.dot(side->moments.outer * across) / n - mean * mean);
+    const double mean = axis.dot(side->moments.sum) / n;
+    const double within = std::max(0.0, axis.dot(side->moments.outer * axis) / n - mean * mean);
     const double t = mean - centre;
     m2 += n * (t * t + within);
     m3 += n * t * (t * t + 3 * within);
@@ -90,12 +89,20 @@ bool isPairOfLines(const Sides& sides, const Moments& all, const Eigen::Vector3d
   return m4 * m2 - m3 * m3 - m2 * m2 * m2 < kLeastFilled * m2 * m2 * m2;
 }
 
+/// Whether the points lie on two parallel lines, which always have a plane: rings of a lidar on a
+/// floor and on the wall beside it. They may be farther apart than they are long; where they are
+/// about as far apart, their axes are any, and they are not recognised.
+bool isPairOfLines(const Sides& sides, const Moments& all, const Axes& axes) {
+  return areAtTwoPlaces(sides, all, axes.across) ||
+         areAtTwoPlaces(sides, all, axes.normal.cross(axes.across));
+}
+
 /// `centre`: of the voxel, from where the moments are counted.
 std::optional<Plane> planeOf(const Sides& sides, double size, const Eigen::Vector3d& centre) {
   const Moments moments = momentsOf(sides);
   if (moments.count < kFewest) return std::nullopt;
   const Axes axes(moments);
-  if (!axes.isFlat(size) || isPairOfLines(sides, moments, axes.across)) return std::nullopt;
+  if (!axes.isFlat(size) || isPairOfLines(sides, moments, axes)) return std::nullopt;
   Eigen::Vector3d view = Eigen::Vector3d::Zero();
   for (const VoxelSide* side : sides) view += side->view;
   const Eigen::Vector3d normal = axes.normal * (axes.normal.dot(view) < 0 ? -1.0 : 1.0);
@@ -111,6 +118,7 @@ VoxelPlanes planesOfVoxel(const Sides& sides, double size, const Eigen::Vector3d
   VoxelPlanes planes;
   const Moments all = momentsOf(sides);
   planes.points = static_cast<uint32_t>(all.count);
+  planes.voxels = static_cast<uint32_t>(sides.size());
   if (all.count < kFewest) return planes;
   const Eigen::Vector3d normal = Axes(all).normal;
   std::array<Sides, 2> halves;
@@ -120,6 +128,13 @@ VoxelPlanes planesOfVoxel(const Sides& sides, double size, const Eigen::Vector3d
     if (plane) planes.add(*plane);
   }
   return planes;
+}
+
+/// Whether planes tell more than those of the points that are left or came since: what scans see
+/// when they come back may be a corner of what they saw before.
+bool stay(const VoxelPlanes& known, const VoxelPlanes& now) {
+  if (!known.forgotten && now.points >= known.points) return false;
+  return kFewer * now.points < known.points || kFewer * now.voxels < known.voxels;
 }
 
 bool isSameSide(const Plane& a, const Plane& b) { return a.normal.dot(b.normal) > 0.5F; }
@@ -171,7 +186,9 @@ void BlockPlanes::fit(int level, const std::vector<VoxelSide>& sides, const Plan
   for (size_t i = 0; i < planes.size(); ++i) {
     planes[i] = planesOfVoxel(in_voxels[i], size, centreOf(level, i));
     const VoxelPlanes* known = before.find(voxelAt(level, i));
-    if (known != nullptr && kForgotten * planes[i].points < known->points) planes[i] = *known;
+    if (known == nullptr || !stay(*known, planes[i])) continue;
+    planes[i] = *known;
+    planes[i].forgotten = true;
   }
 }
 
@@ -179,8 +196,9 @@ void BlockPlanes::fit(int level, const std::vector<VoxelSide>& sides, const Plan
 void BlockPlanes::dropCovered(int level) {
   for (size_t i = 0; i < planesOf(level).size(); ++i) {
     VoxelPlanes& planes = planesOf(level)[i];
-    VoxelPlanes left;
-    left.points = planes.points;
+    VoxelPlanes left = planes;
+    left.sides = {};
+    left.count = 0;
     for (uint32_t side = 0; side < planes.count; ++side) {
       const Plane& plane = planes.sides[side];
       const float needed = std::max(plane.information, needed_[index(level)][i][side]);

@@ -30,8 +30,8 @@ class BlockPlanes {
   static constexpr int kCoarsest =
       MatchMap::kCoarsestPlanes;  ///< whose voxels are as large as a block
 
-  /// `size` [m] is that of voxels of level 1. Planes of `before` stay where most of the points are
-  /// forgotten that they were fitted to.
+  /// `size` [m] is that of voxels of level 1. Planes of `before` stay where points are forgotten
+  /// that they were fitted to, until as many others lie as wide.
   BlockPlanes(const VoxelIndex& block, const std::vector<VoxelSide>& sides, double size,
               const MatchMap& before);
 

@@ -10,7 +10,7 @@
 namespace edgevox {
 namespace {
 
-constexpr double kNormalSteps = 1022.0;  // even, so that axes are exact
+constexpr double kNormalSteps = 2046.0;  // even, so that axes are exact
 constexpr double kOffsetSteps = 2048.0;  // a voxel
 constexpr double kLeastOffset = -16.0;   // [voxel]
 

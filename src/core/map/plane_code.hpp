@@ -26,7 +26,7 @@ struct Numbers16 {
   }
 };
 
-/// Planes in a few bytes each. Normal: 0.1 degrees. Offset: 1/2048 voxel. Information: a fifth.
+/// Planes in a few bytes each. Normal: 0.15 degrees. Offset: 1/4096 voxel. Information: a fifth.
 struct PlaneCode {
   std::array<Numbers16, 2> normal;
   Numbers16 offset;

@@ -200,7 +200,7 @@ TEST(MapFile, IsWrittenAndReadAsAFile) {
   EXPECT_THROW(MapFile::read(folder.path()), FileError);
 }
 
-TEST(MapFile, ForeignNewerAndCutFilesAreToldApart) {
+TEST(MapFile, ForeignNewerOlderAndCutFilesAreToldApart) {
   const auto holds = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos && text.find("the.file") != std::string::npos;
   };
@@ -210,6 +210,10 @@ TEST(MapFile, ForeignNewerAndCutFilesAreToldApart) {
   newer[kVersionAt] = 9;
   EXPECT_TRUE(holds(errorOf(newer), "version 9")) << errorOf(newer);
   EXPECT_TRUE(holds(errorOf(newer), "update edgevox"));
+  std::string older = compactFile();
+  older[kVersionAt] = 1;
+  EXPECT_TRUE(holds(errorOf(older), "version 1")) << errorOf(older);
+  EXPECT_TRUE(holds(errorOf(older), "which had no planes: make the map again"));
   EXPECT_TRUE(holds(errorOf(compactFile().substr(0, 2000)), "cut"));
   std::string damaged = compactFile();
   damaged[damaged.size() / 2] ^= 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -152,6 +153,73 @@ TEST(Freezing, WhatComesBackKeepsItsSelection) {
             }));
   map.label();
   EXPECT_TRUE(sameVoxels(labelledAtOnce(voxelsOf(map.hitVoxels())), voxelsOf(map.edgeVoxels())));
+}
+
+using LevelAndVoxel = std::pair<int, VoxelIndex>;
+
+std::map<LevelAndVoxel, VoxelPlanes> planesIn(const MapBuilder& map) {
+  std::map<LevelAndVoxel, VoxelPlanes> planes;
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
+    map.matchMap().planes(l).forEachVoxel([&](const VoxelIndex& v, const VoxelPlanes& of_voxel) {
+      planes[{l, v}] = of_voxel;
+    });
+  }
+  return planes;
+}
+
+/// Scans of a floor that is 5 m wide, and of a wall at its end.
+class Hall {
+ public:
+  /// Of a square of both. `lift`: of the floor [m].
+  void scan(int scans, double from, double to, double lift, MapBuilder& map) {
+    for (int i = 0; i < scans; ++i) {
+      Centroids scan;
+      for (int k = 0; k < 3000; ++k) {
+        const double x = random_.uniform(from, to);
+        const double y = random_.uniform(from, to);
+        const double noise = 0.005 * random_.normal();
+        scan.push_back(k % 2 == 0 ? Vector3d(x, y, 0.23 + lift + noise)
+                                  : Vector3d(x, 0.23 + noise, y));
+      }
+      map.insert(scan, {2.5, 2.5, 1.5});
+    }
+  }
+
+ private:
+  Random random_{13};
+};
+
+TEST(Freezing, KeepsPlanesAlsoWhereScansComeBackToACornerOfThem) {
+  constexpr double kFrom = 1.7;  // a corner of a voxel of level 4 [m]
+  constexpr double kTo = 2.3;
+  MapBuilder map = makeMap(freezingAfter(20));
+  Hall hall;
+  hall.scan(10, 0.02, 5.0, 0.0, map);
+  const auto before = planesIn(map);
+  ASSERT_LT(4, std::count_if(before.begin(), before.end(), [](const auto& of_voxel) {
+              return of_voxel.first.first == MatchMap::kCoarsestPlanes;
+            }));
+  Visitor().visit(kFarAway, 40, map);
+  ASSERT_LT(5U, map.frozenRegions());
+  for (int scan = 0; scan < 30; ++scan) {  // thrice as many points as in the voxel before
+    hall.scan(1, kFrom, kTo, 0.02, map);
+    const auto after = planesIn(map);
+    for (const auto& [at, planes] : before) {
+      const double x = at.second.x * map.voxelSize(at.first);
+      if (at.first < 4 && x > kFrom - 0.2 && x < kTo) continue;  // may be seen as a whole
+      const auto found = after.find(at);
+      ASSERT_NE(after.end(), found) << scan << ", level " << at.first;
+      ASSERT_EQ(planes.count, found->second.count);
+      ASSERT_EQ(planes.sides[0].normal, found->second.sides[0].normal) << scan;
+      ASSERT_EQ(planes.sides[0].offset, found->second.sides[0].offset) << scan;
+    }
+  }
+  EXPECT_LT(0U, map.thawedRegions());
+  hall.scan(30, 0.02, 5.0, 0.02, map);  // a new floor: now they give way
+  const VoxelIndex middle = voxelAt(Vector3d(2.5, 2.5, 0.23), 1.0 / map.voxelSize(4));
+  const VoxelPlanes* floor = map.matchMap().planes(4).find(middle);
+  ASSERT_NE(nullptr, floor);
+  EXPECT_NEAR(before.at({4, middle}).sides[0].offset + 0.02F, floor->sides[0].offset, 0.002F);
 }
 
 /// A walk to and fro between places that overlap, with a map that freezes whatever it may.

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/map/plane_code.hpp"
 #include "core/map/surface_code.hpp"
 #include "core/map/voxel_tree.hpp"
 #include "edgevox/archive.hpp"
@@ -99,6 +100,41 @@ TEST(SurfaceCode, KeepsWhereASurfaceIsAndHowWellThatIsKnown) {
     EXPECT_NEAR(before.side.norm(), after.side.norm(), 1e-3 * before.side.norm());
     EXPECT_GT(before.side.normalized().dot(after.side.normalized()), std::cos(0.15));
   }
+}
+
+double degreesBetween(const Plane& a, const Plane& b) {
+  return std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal)) * 180 / M_PI;
+}
+
+void expectSame(const Plane& before, const Plane& after, double size) {
+  EXPECT_LT(degreesBetween(before, after), 0.15);
+  EXPECT_NEAR(1.0F, after.normal.norm(), 1e-5F);
+  EXPECT_NEAR(static_cast<double>(before.offset), static_cast<double>(after.offset), size / 2048);
+  EXPECT_NEAR(1.0F, after.information / before.information, 0.2F);
+}
+
+TEST(PlaneCode, KeepsPlanesToATenthOfADegree) {
+  constexpr double kVoxel = 3.2;
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  PlaneCode code;
+  std::vector<Plane> planes;
+  const Eigen::Vector3d axes[] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (size_t i = 0; i < 20000; ++i) {
+    Eigen::Vector3d normal(uniform(random), uniform(random), uniform(random));
+    if (i < 4) normal = axes[i];
+    Plane plane;
+    plane.normal = normal.normalized().cast<float>();
+    plane.offset = static_cast<float>(0.87 * kVoxel * uniform(random));
+    plane.information = static_cast<float>(std::exp2(4 + 4 * (1 + uniform(random))));
+    planes.push_back(plane);
+    code.add(plane, kVoxel);
+  }
+  for (size_t i = 0; i < planes.size(); ++i) {
+    expectSame(planes[i], code.plane(i, kVoxel), kVoxel);
+    if (i < 4) EXPECT_LT(degreesBetween(planes[i], code.plane(i, kVoxel)), 1e-3);
+  }
+  EXPECT_THROW(code.plane(planes.size(), kVoxel), ArchiveError);
 }
 
 /// An edge along `direction` where two planes meet.
@@ -205,6 +241,37 @@ TEST_P(Decoded, HasTheSelectedSurfaces) {
     const Eigen::Vector3f mean = of_edges ? meanOf(before_, v) : a.surface(a.slotOf(v)).mean;
     EXPECT_LT((mean - b.surface(b.slotOf(v)).mean).norm(), 0.03 * before_.voxelSize(1));
   });
+}
+
+TEST_P(Decoded, HasThePlanes) {
+  size_t all = 0;
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
+    const PlaneLevel& a = before_.planes(l);
+    const PlaneLevel& b = after_.planes(l);
+    all += a.count();
+    EXPECT_EQ(a.count(), b.count()) << l;
+    a.forEachVoxel([&](const VoxelIndex& v, const VoxelPlanes& planes) {
+      ASSERT_NE(nullptr, b.find(v)) << l;
+      ASSERT_EQ(planes.count, b.find(v)->count);
+      for (uint32_t side = 0; side < planes.count; ++side) {
+        expectSame(planes.sides[side], b.find(v)->sides[side], a.voxelSize());
+      }
+    });
+  }
+  RecordProperty("planes", static_cast<int>(all));
+  EXPECT_EQ(GetParam() != Representation::kEdges, all > 10);
+}
+
+TEST_P(Decoded, HasThePlanesOfEachLevelApart) {
+  MatchMap of_one = after_;
+  std::vector<VoxelIndex> known;
+  of_one.planes(3).forEachVoxel(
+      [&](const VoxelIndex& v, const VoxelPlanes&) { known.push_back(v); });
+  for (const VoxelIndex& v : known) of_one.planes(3).set(v, {});
+  const MatchMap again = decoded(encoded(of_one, GetParam()), config_);
+  EXPECT_EQ(after_.planes(2).count(), again.planes(2).count());
+  EXPECT_EQ(0U, again.planes(3).count());
+  EXPECT_EQ(after_.planes(4).count(), again.planes(4).count());
 }
 
 TEST_P(Decoded, IsTheSameOnceMore) {

@@ -97,6 +97,31 @@ TEST_P(Joined, HasTheSurfacesOfTheFirstAndElseOfTheSecond) {
   EXPECT_EQ(of_a + of_b, map.surfaces().selectedCount());
 }
 
+TEST_P(Joined, HasThePlanesOfTheFirstAndElseOfTheSecond) {
+  const MatchMap in_a = a();
+  const MatchMap in_b = b();
+  const MatchMap map = joined();
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
+    size_t of_b = 0;
+    map.planes(l).forEachVoxel([&](const VoxelIndex& v, const VoxelPlanes& planes) {
+      const VoxelPlanes* from = in_a.planes(l).find(v);
+      if (from == nullptr) {
+        from = in_b.planes(l).find(v);
+        ++of_b;
+      }
+      ASSERT_NE(nullptr, from);
+      ASSERT_EQ(from->count, planes.count);
+      EXPECT_EQ(from->sides[0].normal, planes.sides[0].normal);
+      EXPECT_EQ(from->sides[1].offset, planes.sides[1].offset);
+    });
+    const bool some = GetParam() != Representation::kEdges;
+    EXPECT_EQ(some, of_b > 0) << l;
+    EXPECT_EQ(some, in_a.planes(l).count() > 0) << l;
+    EXPECT_EQ(in_a.planes(l).count() + of_b, map.planes(l).count());
+    EXPECT_EQ(map.planes(l).count(), readAgain(map).planes(l).count());
+  }
+}
+
 TEST_P(Joined, WithItselfIsTheSame) {
   const MatchMap map = readAgain(a());
   EXPECT_EQ(encoded(map, GetParam()), encoded(unionOf(map, map, GetParam()), GetParam()));
