@@ -9,9 +9,8 @@
 namespace edgevox {
 namespace {
 
-constexpr double kTrusted = 0.95;        // of the running median of the hit ratios
-constexpr double kAfterLost = 0.85;      // the same, of a match after a lost scan, at least
-constexpr double kFarTranslation = 1.0;  // from the prediction [m]
+constexpr double kTrusted = 0.95;                     // of the running median of the hit ratios
+constexpr double kFarTranslation = 1.0;               // from the prediction [m]
 constexpr double kFarRotation = 20.0 * M_PI / 180.0;  // [rad]
 constexpr double kMostBlockedAtFirst = 0.2;           // lines of sight, before there is a history
 constexpr double kBlocked = 0.08;                     // the same later, more than ...
@@ -32,8 +31,8 @@ void Acceptance::setLimits(bool was_lost, MatchRequest& request) const {
   const double usual = upperMedian(hit_ratios_.values());
   request.trusted_hit_ratio = kTrusted * usual;
   request.far_hit_ratio = request.trusted_hit_ratio;
-  const double relative = std::max(matcher_.relative_hit_ratio, was_lost ? kAfterLost : 0.0);
-  request.required_hit_ratio = std::max(relative * usual, matcher_.min_hit_ratio);
+  request.required_hit_ratio =
+      std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio);
   request.far_translation = kFarTranslation;
   request.far_rotation = kFarRotation;
   request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
