@@ -197,11 +197,11 @@ std::string mapMarkdown(const Recording& recording, const MapMeasureOptions& opt
              {"map", "anchors", "map_mb", "smaller", "compression", "rpe_mm", "rpe_ratio",
               "rpe_p95_mm", "rpe_deg", "ape_cm", "lost", "fallback", "captured", "ms"},
              2) +
-         "\nEach row is a run of its own through all scans. Scans are aligned to all occupied "
-         "voxels of the map; to `map/anchors` flat ones of each direction in a block, with edges "
-         "where they are missing; or to as many by chance. MB: bits of all levels, and 48 bytes a "
-         "Gaussian. Relative error: median and 95 % of the steps in which the sensor moves. "
-         "Captured: of " +
+         "\nEach row is a run of its own through all scans. Scans are aligned to planes and, where "
+         "they lie in none, to all occupied voxels of the map; to those that hold edges and "
+         "`map/anchors` flat ones of each direction in a block; or to as many by chance. MB: of "
+         "the compact file. Relative error: median and 95 % of the steps in which the sensor "
+         "moves. Captured: of " +
          std::to_string(options.capture_scans * options.capture_trials) + " guesses, " + guess +
          " off in any direction, those from which the pose is found to 0.1 m and 1 degree on the "
          "finished map, with restarts.\n";

@@ -16,8 +16,8 @@ po::options_description describe() {
   po::options_description known = withHelp(
       "Usage: evaluate map INPUT --output FOLDER [options]\n"
       "Maps a recording with maps of many sizes and measures error and capture against their\n"
-      "bytes: of flat anchors and edges, of as many voxels by chance, and of all voxels. Writes\n"
-      "FOLDER/map.md, map.csv and map.png and prints the first.\nOptions");
+      "bytes: of planes with edges and flat anchors, with as many voxels by chance, and with all\n"
+      "voxels. Writes FOLDER/map.md, map.csv and map.png and prints the first.\nOptions");
   addRecordingOptions(known);
   addConfigOptions(known);
   auto add = known.add_options();

@@ -15,6 +15,12 @@ namespace {
 
 using MapTool = MapToolTest;
 
+size_t planesOf(const PlaneLevel& level) {
+  size_t count = 0;
+  level.forEachVoxel([&](const VoxelIndex&, const VoxelPlanes& planes) { count += planes.count; });
+  return count;
+}
+
 TEST_F(MapTool, tellsWhatAMapHolds) {
   Config config;
   config.map.anchors = 9;
@@ -24,7 +30,7 @@ TEST_F(MapTool, tellsWhatAMapHolds) {
   const YAML::Node told = YAML::Load(outcome.output);
   const MapBuilder& map = maps().a.map();
   EXPECT_EQ("compact", told["content"].as<std::string>());
-  EXPECT_EQ(1, told["version"].as<int>());
+  EXPECT_EQ(2, told["version"].as<int>());
   EXPECT_EQ("world", told["frame"].as<std::string>());
   EXPECT_EQ(22, told["scans"].as<int>());
   EXPECT_EQ(map.edgeVoxels().voxelCount(), told["edges"].as<size_t>());
@@ -35,8 +41,12 @@ TEST_F(MapTool, tellsWhatAMapHolds) {
     EXPECT_EQ(map.matchMap().occupied(l).voxelCount(), level["occupied"].as<size_t>());
     EXPECT_DOUBLE_EQ(0.2 * (1 << l), level["voxel_m"].as<double>());
     ASSERT_EQ(l == 1, level["surfaces"].IsDefined());
-    if (l > 1) continue;
-    EXPECT_EQ(map.matchMap().surfaces().selectedCount(), level["surfaces"].as<size_t>());
+    if (l == 1) {
+      EXPECT_EQ(map.matchMap().surfaces().selectedCount(), level["surfaces"].as<size_t>());
+    }
+    const bool has_planes = l >= MatchMap::kFinestPlanes && l <= MatchMap::kCoarsestPlanes;
+    ASSERT_EQ(has_planes, level["planes"].IsDefined());
+    if (has_planes) EXPECT_EQ(planesOf(map.matchMap().planes(l)), level["planes"].as<size_t>());
   }
   EXPECT_EQ(bytesOf(file("other")).size(), told["bytes"].as<size_t>());
   EXPECT_EQ(1U, told["parameters"].size());

@@ -18,13 +18,19 @@ namespace po = boost::program_options;
 po::options_description describe() {
   po::options_description known = withHelp(
       "Usage: map info FILE [--json]\n"
-      "Tells what a map file holds. Surfaces are what scans are aligned to; bytes_in_memory is "
-      "the\n"
-      "size of the map to localize in.\nOptions");
+      "Tells what a map file holds. Scans are aligned to planes and surfaces: those of voxels of\n"
+      "each size. bytes_in_memory is the size of the map to localize in.\nOptions");
   auto add = known.add_options();
   add("file", po::value<std::string>()->required(), "the map; the first argument");
   add("json", "print JSON");
   return known;
+}
+
+/// Of all voxels, both sides.
+uint64_t planesOf(const PlaneLevel& level) {
+  uint64_t count = 0;
+  level.forEachVoxel([&](const VoxelIndex&, const VoxelPlanes& planes) { count += planes.count; });
+  return count;
 }
 
 Report levelsOf(const MatchMap& map) {
@@ -35,6 +41,9 @@ Report levelsOf(const MatchMap& map) {
     level.add("occupied",
               uint64_t{l == 0 ? map.hitVoxels().voxelCount() : map.occupied(l).voxelCount()});
     if (l == 1) level.add("surfaces", uint64_t{map.surfaces().selectedCount()});
+    if (l >= MatchMap::kFinestPlanes && l <= MatchMap::kCoarsestPlanes) {
+      level.add("planes", planesOf(map.planes(l)));
+    }
     levels.add(std::to_string(l), level);
   }
   return levels;
