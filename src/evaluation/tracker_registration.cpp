@@ -6,10 +6,10 @@
 namespace edgevox {
 namespace {
 
-ScanResult trackFrom(const Pose& guess, const VoxelScan& scan, const MapBuilder& map, uint32_t seed,
+ScanResult trackFrom(const Pose& guess, const VoxelScan& scan, const MatchMap& map, uint32_t seed,
                      Tracker& tracker) {
   tracker.setPose(guess);
-  return tracker.track(scan, {}, {map.matchMap(), map.nearHitVoxels(), false, seed});
+  return tracker.track(scan, {}, {map, false, seed});
 }
 
 RegistrationFor trackerFrom(const CaptureScene& scene, const Tracker& start) {
@@ -17,7 +17,7 @@ RegistrationFor trackerFrom(const CaptureScene& scene, const Tracker& start) {
     return [&scene, &probe, start](const Pose& guess, uint64_t seed) -> CapturedPose {
       Tracker tracker = start;
       const ScanResult result =
-          trackFrom(guess, probe.scan, scene.map, static_cast<uint32_t>(seed), tracker);
+          trackFrom(guess, probe.scan, scene.map.matchMap(), static_cast<uint32_t>(seed), tracker);
       return {result.T_map_sensor, result.located()};
     };
   };
@@ -32,7 +32,7 @@ RegistrationFor firstScanTracker(const CaptureScene& scene, const Config& config
 RegistrationFor experiencedTracker(const CaptureScene& scene, const Config& config) {
   Tracker tracker(config);
   for (const CaptureProbe& probe : scene.probes) {
-    trackFrom(probe.T_map_sensor, probe.scan, scene.map, 0, tracker);
+    trackFrom(probe.T_map_sensor, probe.scan, scene.map.matchMap(), 0, tracker);
   }
   return trackerFrom(scene, tracker);
 }

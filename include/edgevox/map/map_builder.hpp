@@ -63,9 +63,7 @@ class MapBuilder {
   const MomentLevel& moments() const { return moments_; }
   /// Voxels of level 0 with at least `min_hits`: a copy, as those of frozen regions are packed.
   BitGrid<16> hitVoxels() const;
-  /// The part of hitVoxels() that is not frozen, as it is held.
-  const BitGrid<16>& nearHitVoxels() const { return hit_voxels_; }
-  size_t hitVoxelCount() const { return hit_voxels_.voxelCount() + frozenVoxels(); }
+  size_t hitVoxelCount() const { return match_map_.hitVoxels().voxelCount() + frozenVoxels(); }
   const BitGrid<16>& edgeVoxels() const { return match_map_.edgeVoxels(); }
   /// Mean of the centroids that fell in a voxel of level 0, which must be in hitVoxels(); in frozen
   /// regions that of an edge voxel to 1/256 of its size, of any other its centre.
@@ -94,8 +92,8 @@ class MapBuilder {
   static void archive(Self& self, Archive& bytes) {
     bytes(self.scans_, self.ignored_, self.cleared_count_, self.left_out_lone_, self.left_out_full_,
           self.full_, self.thawed_count_, self.lone_voxels_, self.hit_grid_, self.hits_,
-          self.hit_slots_, self.hit_voxels_, self.edge_candidates_, self.changed_, self.match_map_,
-          self.far_, self.random_share_, self.moments_, self.touched_);
+          self.hit_slots_, self.match_map_.hitVoxels(), self.edge_candidates_, self.changed_,
+          self.match_map_, self.far_, self.random_share_, self.moments_, self.touched_);
     if constexpr (Archive::kReads) self.checkRead();
   }
 
@@ -209,9 +207,8 @@ class MapBuilder {
   SlotGrid<8> hit_grid_;
   Pool<Hit> hits_;
   Slots hit_slots_;
-  BitGrid<16> hit_voxels_;       // of regions that are not frozen
   BitGrid<16> edge_candidates_;  // labelled, not yet thinned
-  BitGrid<16> changed_;          // of hit_voxels_, since the last labelling
+  BitGrid<16> changed_;          // of the hit voxels, since the last labelling
   MomentLevel moments_;
   MatchMap match_map_;
   FarRegions far_;

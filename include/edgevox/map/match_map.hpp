@@ -59,7 +59,7 @@ class MatchMap {
   /// in order as these: together they tell the surfaces.
   const std::vector<VoxelPoint>& besideEdges() const { return beside_edges_; }
   std::vector<VoxelPoint>& besideEdges() { return beside_edges_; }
-  /// All occupied voxels of level 0; while mapping goes on the builder has them.
+  /// All occupied voxels of level 0; while mapping goes on those in places that are not frozen.
   const BitGrid<16>& hitVoxels() const { return hit_voxels_; }
   BitGrid<16>& hitVoxels() { return hit_voxels_; }
 

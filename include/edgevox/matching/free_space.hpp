@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "edgevox/grid/block_grid.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/match_map.hpp"
 
@@ -15,9 +14,8 @@ namespace edgevox {
 /// The share of the first `count` points, in the sensor's frame [m], whose lines of sight from
 /// `T_map_sensor` cross a known plane in an occupied voxel and end well behind it: few where the
 /// pose is right, as nobody sees through walls (compare the ray queries of Ryde and Hu 2010).
-/// `hit_voxels` are those of level 0. Pose and points in the grid's range.
-double blockedShare(const MatchMap& map, const BitGrid<16>& hit_voxels,
-                    const std::vector<Eigen::Vector3d>& points, size_t count,
+/// Pose and points in the grid's range.
+double blockedShare(const MatchMap& map, const std::vector<Eigen::Vector3d>& points, size_t count,
                     const Pose& T_map_sensor);
 
 }  // namespace edgevox

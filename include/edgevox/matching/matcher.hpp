@@ -34,9 +34,6 @@ struct MatchRequest {
   double max_rotation = 1.4;     ///< the same [rad]
   bool all_voxels = false;       ///< refine against all occupied voxels
   uint64_t seed = 0;             ///< of the restarts
-  /// Occupied voxels of level 0, to see whether lines of sight are blocked; null: that is not
-  /// asked.
-  const BitGrid<16>* hit_voxels = nullptr;
 };
 
 /// Why a match is not accepted.

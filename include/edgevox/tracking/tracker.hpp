@@ -25,9 +25,8 @@ struct SweepTime;
 /// A map to track in, as it is for one scan.
 struct TrackedMap {
   const MatchMap& map;
-  const BitGrid<16>& hit_voxels;  ///< of level 0
-  bool empty = false;             ///< then the scan is put where its prior says
-  uint32_t version = 0;           ///< seeds the restarts; differs after each change
+  bool empty = false;    ///< then the scan is put where its prior says
+  uint32_t version = 0;  ///< seeds the restarts; differs after each change
   /// Called before all surfaces are matched to, not only the selected ones: brings them up to date.
   std::function<void()> prepareAll = [] {};
 };
@@ -76,7 +75,7 @@ class Tracker {
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
   double fastestChange() const;
-  MatchRequest requestFor(const SweepPose& now, const Pose& guess, const TrackedMap& tracked) const;
+  MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
 
   Config config_;
   ClockWatch clock_watch_;  // of the located scans

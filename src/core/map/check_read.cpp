@@ -34,7 +34,7 @@ void MapBuilder::checkHits() {
     });
   }
   hit_slots_.checkRead(used);
-  hit_voxels_.forEach([&](const VoxelIndex& v) { require(isHit(v), error); });
+  match_map_.hitVoxels().forEach([&](const VoxelIndex& v) { require(isHit(v), error); });
   edgeVoxels().forEach([&](const VoxelIndex& v) { require(isHit(v) || isFrozen(v), error); });
 }
 

@@ -124,14 +124,14 @@ void MapBuilder::packVoxels(const VoxelIndex& region, FrozenRegion& frozen) {
       }
     });
     frozen.edges_to[i] = static_cast<uint16_t>(frozen.data.size() / kCentroidBytes);
-    forEachVoxel(hit_voxels_, block,
+    forEachVoxel(match_map_.hitVoxels(), block,
                  [&](const VoxelIndex& v) { candidates.push_back(edge_candidates_.test(v)); });
     edge_candidates_.eraseBlock(block);
-    const auto* bits = hit_voxels_.findBlock(block);
+    const auto* bits = match_map_.hitVoxels().findBlock(block);
     if (bits == nullptr) return;
     frozen.blocks = static_cast<uint8_t>(frozen.blocks | 1U << i);
     appendBits(*bits, frozen.hit_voxels);
-    hit_voxels_.eraseBlock(block);
+    match_map_.hitVoxels().eraseBlock(block);
   });
   const size_t first = frozen.data.size();
   frozen.data.resize(first + (candidates.size() + 7) / 8);
@@ -180,7 +180,7 @@ void MapBuilder::thaw(const VoxelIndex& region) {
   const uint8_t* candidates = edge + frozen.bitsAt();
   size_t voxels = 0;
   forEachHitBlock(region, frozen, [&](const VoxelIndex& index, const BitGrid<16>::Block& block) {
-    hit_voxels_.editBlock(hit_voxels_.insertBlock(index)) = block;
+    match_map_.hitVoxels().editBlock(match_map_.hitVoxels().insertBlock(index)) = block;
     BitGrid<16>::forEachInBlock(index, block, [&](const VoxelIndex& v) {
       const bool is_edge = edgeVoxels().test(v);
       reviveHit(v, is_edge ? centroidIn(edge) : Eigen::Vector3d(0.5, 0.5, 0.5));
@@ -197,7 +197,7 @@ void MapBuilder::thaw(const VoxelIndex& region) {
 }
 
 BitGrid<16> MapBuilder::hitVoxels() const {
-  BitGrid<16> all = hit_voxels_;
+  BitGrid<16> all = match_map_.hitVoxels();
   far_.forEachFrozen([&](const VoxelIndex& region, const FrozenRegion& frozen) {
     forEachHitBlock(region, frozen, [&](const VoxelIndex& index, const BitGrid<16>::Block& block) {
       all.editBlock(all.insertBlock(index)) = block;
@@ -212,7 +212,7 @@ bool MapBuilder::isFrozen(const VoxelIndex& v) const {
 
 bool MapBuilder::isHitWithin(const VoxelIndex& parent) const {
   for (int i = 0; i < kChildren; ++i) {
-    if (hit_voxels_.test(childOf(parent, i))) return true;
+    if (match_map_.hitVoxels().test(childOf(parent, i))) return true;
   }
   return false;
 }

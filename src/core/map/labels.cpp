@@ -13,11 +13,11 @@ bool MapBuilder::labelDue() const {
 
 void MapBuilder::label() {
   BitGrid<16> relabelled;
-  Dilation<16>(labeller_.reach(), hit_voxels_, relabelled).add(changed_);
+  Dilation<16>(labeller_.reach(), match_map_.hitVoxels(), relabelled).add(changed_);
   changed_.clear();
-  labeller_.label(hit_voxels_, relabelled, edge_candidates_);
+  labeller_.label(match_map_.hitVoxels(), relabelled, edge_candidates_);
   BitGrid<16> targets;
-  Dilation<16>(1, hit_voxels_, targets).add(relabelled);
+  Dilation<16>(1, match_map_.hitVoxels(), targets).add(relabelled);
   BitGrid<16>& edges = match_map_.edgeVoxels();
   std::vector<BitGrid<16>::Block> before(targets.blockCount());
   for (size_t slot = 0; slot < before.size(); ++slot) {

@@ -88,7 +88,7 @@ void MapBuilder::addHits() {
     hit.last_scan = scans_;
     hit.passes = 0;
     if (++hit.hits == static_cast<uint32_t>(config_.min_hits)) {
-      hit_voxels_.set(scan_.voxels[i]);
+      match_map_.hitVoxels().set(scan_.voxels[i]);
       changed_.set(scan_.voxels[i]);
     }
   }
@@ -133,7 +133,6 @@ void MapBuilder::clear() {
   hit_grid_ = {};
   hits_ = {};
   hit_slots_ = {};
-  hit_voxels_ = {};
   edge_candidates_ = {};
   changed_ = {};
   touched_ = std::vector<uint32_t>();  // which gives its memory back, unlike {}
@@ -155,17 +154,16 @@ Eigen::Vector3d MapBuilder::centroidOf(uint32_t slot, const VoxelIndex& v) const
 }
 
 size_t MapBuilder::bytes() const {
-  return hit_grid_.bytes() + hits_.bytes() + hit_slots_.bytes() + hit_voxels_.bytes() +
-         edge_candidates_.bytes() + changed_.bytes() + match_map_.bytes() + lone_voxels_.bytes() +
-         scan_.neighbours.bytes() + far_.bytes() + moments_.bytes() +
-         touched_.capacity() * sizeof(uint32_t);
+  return hit_grid_.bytes() + hits_.bytes() + hit_slots_.bytes() + edge_candidates_.bytes() +
+         changed_.bytes() + match_map_.bytes() + lone_voxels_.bytes() + scan_.neighbours.bytes() +
+         far_.bytes() + moments_.bytes() + touched_.capacity() * sizeof(uint32_t);
 }
 
 size_t MapBuilder::usedBytes() const {
   const size_t free_cells = match_map_.surfaces().slots().freeCount(Slots::kNear);
   return bytes() - hit_grid_.freeBytes() - hit_slots_.freeCount(Slots::kNear) * sizeof(Hit) -
-         hit_voxels_.freeBytes() - edge_candidates_.freeBytes() - match_map_.freeBytes() -
-         free_cells * MomentLevel::kCellBytes;
+         match_map_.hitVoxels().freeBytes() - edge_candidates_.freeBytes() -
+         match_map_.freeBytes() - free_cells * MomentLevel::kCellBytes;
 }
 
 std::string fullText(const MapConfig& config) {

@@ -105,7 +105,7 @@ bool MapBuilder::isHitBeside(const VoxelIndex& v) const {
 
 void MapBuilder::remove(const VoxelIndex& v) {
   thawAround(v);
-  if (hit_voxels_.reset(v)) {
+  if (match_map_.hitVoxels().reset(v)) {
     changed_.set(v);
     ++cleared_count_;
   }

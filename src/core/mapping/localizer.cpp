@@ -14,7 +14,7 @@ ScanResult Localizer::process(const VoxelScan& scan, const ScanPrior& prior) {
   if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
     return tracker_.stale(scan, order == ClockWatch::Order::kAhead);
   }
-  ScanResult result = tracker_.track(scan, prior, {map_, map_.hitVoxels()});
+  ScanResult result = tracker_.track(scan, prior, {map_});
   result.clock_jumped = order == ClockWatch::Order::kJumpedBack;
   result.times.match = static_cast<float>(timer.lap());
   return result;

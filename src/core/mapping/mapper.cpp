@@ -45,9 +45,8 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
 }
 
 ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
-  return tracker_.track(scan, prior,
-                        {map_.matchMap(), map_.nearHitVoxels(), map_.empty(), map_.scans(),
-                         [this] { map_.prepareAll(); }});
+  return tracker_.track(
+      scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
 }
 
 /// Whether more scans speak against a young map than for it: its first ones were bad, not those

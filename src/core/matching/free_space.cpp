@@ -30,8 +30,7 @@ double crossing(const Line& line, const Plane& plane, const Eigen::Vector3d& cen
 }
 
 /// Whether the line crosses a plane of a voxel of level 1 where an occupied voxel is.
-bool isBlockedIn(const MatchMap& map, const BitGrid<16>& hit_voxels, const Line& line,
-                 const VoxelIndex& parent) {
+bool isBlockedIn(const MatchMap& map, const Line& line, const VoxelIndex& parent) {
   for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
     const VoxelIndex v = coarser(parent, l - 1);
     const VoxelPlanes* planes = map.planes(l).find(v);
@@ -41,27 +40,24 @@ bool isBlockedIn(const MatchMap& map, const BitGrid<16>& hit_voxels, const Line&
       if (at < 0) return false;
       const Eigen::Vector3d point = line.from + at * (line.to - line.from);
       const VoxelIndex crossed = voxelAt(point, 1.0 / map.voxelSize(0));
-      return coarser(crossed, 1) == parent && hit_voxels.test(crossed);
+      return coarser(crossed, 1) == parent && map.hitVoxels().test(crossed);
     });
   }
   return false;
 }
 
-bool isBlocked(const MatchMap& map, const BitGrid<16>& hit_voxels, const Line& line,
-               double length) {
+bool isBlocked(const MatchMap& map, const Line& line, double length) {
   const double inverse_size = 1.0 / map.voxelSize(1);
   const Eigen::Vector3d end = line.from + (1.0 - kEnd / length) * (line.to - line.from);
   bool blocked = false;
-  forEachOnRay(
-      map.occupied(1), line.from * inverse_size, end * inverse_size,
-      [&](const VoxelIndex& v) { blocked = blocked || isBlockedIn(map, hit_voxels, line, v); });
+  forEachOnRay(map.occupied(1), line.from * inverse_size, end * inverse_size,
+               [&](const VoxelIndex& v) { blocked = blocked || isBlockedIn(map, line, v); });
   return blocked;
 }
 
 }  // namespace
 
-double blockedShare(const MatchMap& map, const BitGrid<16>& hit_voxels,
-                    const std::vector<Eigen::Vector3d>& points, size_t count,
+double blockedShare(const MatchMap& map, const std::vector<Eigen::Vector3d>& points, size_t count,
                     const Pose& T_map_sensor) {
   size_t lines = 0;
   size_t blocked = 0;
@@ -70,7 +66,7 @@ double blockedShare(const MatchMap& map, const BitGrid<16>& hit_voxels,
     if (length < kShortest) continue;
     ++lines;
     const Line line{T_map_sensor.translation(), T_map_sensor * points[i]};
-    blocked += isBlocked(map, hit_voxels, line, length) ? 1 : 0;
+    blocked += isBlocked(map, line, length) ? 1 : 0;
   }
   return lines == 0 ? 0.0 : static_cast<double>(blocked) / static_cast<double>(lines);
 }

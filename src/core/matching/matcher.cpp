@@ -336,10 +336,7 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
   result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
   const bool trusted = !far && result.hit_ratio >= request.trusted_hit_ratio;
   result.most_blocked = trusted ? request.most_blocked_near : request.most_blocked;
-  if (request.hit_voxels != nullptr) {
-    result.blocked =
-        blockedShare(map, *request.hit_voxels, sample, kLinesOfSight, result.T_map_sensor);
-  }
+  result.blocked = blockedShare(map, sample, kLinesOfSight, result.T_map_sensor);
   if (distance > request.max_translation || angle > request.max_rotation) {
     result.refusal = Refusal::kTooFar;
   } else if (result.hit_ratio < result.required_hit_ratio) {

@@ -109,7 +109,7 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
   const Pose guess = motion_.predict(now.time, since_last, lost_in_a_row_ <= 1);
   Twist twist = motion_.predictTwist({now.time, guess}, since_last.has_value());
   const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}),
-                                   requestFor(now, guess, tracked), tracked, result);
+                                   requestFor(now, guess, tracked.version), tracked, result);
   if (!found.accepted) return;
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
@@ -122,17 +122,15 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
   result.covariance = covarianceOf(refined.information);
 }
 
-MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess,
-                                 const TrackedMap& tracked) const {
+MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const {
   const double since_last = motion_.known() ? now.time - motion_.last().time : 0.0;
   MatchRequest request;
   request.guess = guess;
-  request.hit_voxels = &tracked.hit_voxels;
   acceptance_.setLimits(lost_in_a_row_ > 0, request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.max_translation = kMaxTranslation + fastestChange() * since_last;
   request.max_rotation = kMaxRotation + config_.mapper.max_turn * kRadians * since_last;
-  request.seed = uint64_t{tracked.version} << 32 | lost_in_a_row_;
+  request.seed = uint64_t{version} << 32 | lost_in_a_row_;
   return request;
 }
 

@@ -297,7 +297,7 @@ TEST(Match, TooFarFromTheGuessIsNotAccepted) {
 
 double blockedAt(const Pose& pose) {
   const MappedRoom& room = mappedRoom();
-  return blockedShare(room.map, room.builder.nearHitVoxels(), room.sample, 500, pose);
+  return blockedShare(room.map, room.sample, 500, pose);
 }
 
 TEST(FreeSpace, LinesOfSightAreBlockedWhereThePoseIsWrong) {
@@ -323,10 +323,9 @@ TEST(FreeSpace, MatchesThatSeeThroughWallsAreNotAccepted) {
   MatchRequest request;
   request.guess = room.truth;
   request.guess.translation().x() += 1.5;
-  request.most_blocked = request.most_blocked_near = 0.1;
   const auto matched = [&] { return Matcher(config).align(room.map, room.sample, request); };
   EXPECT_TRUE(matched().accepted);
-  request.hit_voxels = &room.builder.nearHitVoxels();
+  request.most_blocked = request.most_blocked_near = 0.1;
   const MatchResult result = matched();
   EXPECT_FALSE(result.accepted);
   EXPECT_EQ(Refusal::kBlocked, result.refusal);
