@@ -80,7 +80,7 @@ Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
     from_guess.guess = guess;
     from_guess.seed = seed;
     const MatchResult match = matcher.match(map, sample, from_guess);
-    return {match.T_map_sensor, match.accepted};
+    return {match.T_map_sensor, match.accepted()};
   };
 }
 

@@ -59,8 +59,8 @@ struct MatchResult {
   /// Information of the last step, on (translation, rotation vector about the sensor), in the map's
   /// axes.
   Matrix6 information = Matrix6::Zero();
-  /// hit_ratio and blocked as required, near enough to the guess, and in the grid's range
-  bool accepted = false;
+
+  bool accepted() const { return refusal == Refusal::kNone; }
 };
 
 /// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu

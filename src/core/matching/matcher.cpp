@@ -290,7 +290,7 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
 MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
-  if (result.accepted || !isInGridRange(map, sample, request.guess)) return result;
+  if (result.accepted() || !isInGridRange(map, sample, request.guess)) return result;
   restart(map, sample, request, result);
   return result;
 }
@@ -312,7 +312,7 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
   result = refineFrom(request.guess);
   const double step =
       largestStep(request.guess, result.T_map_sensor, medianRange(sample, refinePoints(sample)));
-  if (result.accepted && result.hit_ratio >= request.trusted_hit_ratio &&
+  if (result.accepted() && result.hit_ratio >= request.trusted_hit_ratio &&
       step < kTrustedStep * map.voxelSize(1)) {
     return result;
   }
@@ -320,8 +320,8 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
   uint64_t look_ups = result.look_ups;
   MatchResult searched = refineFrom(search(map, sample, points, request.guess, look_ups));
   result.look_ups = searched.look_ups += look_ups;
-  if (!searched.accepted && result.accepted) return result;
-  if (searched.accepted && !result.accepted) return searched;
+  if (!searched.accepted() && result.accepted()) return result;
+  if (searched.accepted() && !result.accepted()) return searched;
   return searched.fit > result.fit ? searched : result;
 }
 
@@ -344,7 +344,6 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
   } else {
     result.refusal = result.blocked > result.most_blocked ? Refusal::kBlocked : Refusal::kNone;
   }
-  result.accepted = result.refusal == Refusal::kNone;
   return result;
 }
 
@@ -359,7 +358,7 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
   uint64_t state = mixBits(request.seed + 1);
   uint64_t look_ups = best.look_ups;
   int best_score = coarseScore(best.T_map_sensor);
-  for (int i = 1; i <= config_.max_restarts && !best.accepted && look_ups < kMostLookUps; ++i) {
+  for (int i = 1; i <= config_.max_restarts && !best.accepted() && look_ups < kMostLookUps; ++i) {
     const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
     const Pose start = disturbed(request.guess, request.reach * growth, state);
     const Pose found = search(map, sample, points, start, look_ups);
@@ -371,7 +370,7 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
                         request.all_voxels));
     look_ups += candidate.look_ups;
     candidate.restarts = i;
-    if (!candidate.accepted && candidate.hit_ratio <= best.hit_ratio) continue;
+    if (!candidate.accepted() && candidate.hit_ratio <= best.hit_ratio) continue;
     best = candidate;
     best_score = coarseScore(best.T_map_sensor);
   }

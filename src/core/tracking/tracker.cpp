@@ -110,7 +110,7 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
   Twist twist = motion_.predictTwist({now.time, guess}, since_last.has_value());
   const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}),
                                    requestFor(now, guess, tracked.version), tracked, result);
-  if (!found.accepted) return;
+  if (!found.accepted()) return;
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
   if (motion_.known()) twist = motion_.twistInSweepAt(now);
@@ -149,14 +149,14 @@ MatchResult Tracker::locate(const ScanSample& sample, const MatchRequest& reques
   MatchResult match = matcher_.align(tracked.map, sample, request);
   const double sigma =
       worstSigma(match.information, medianRange(sample, matcher_.refinePoints(sample)));
-  if (!match.accepted || (!published && acceptance_.needsFallback(match, sigma))) {
+  if (!match.accepted() || (!published && acceptance_.needsFallback(match, sigma))) {
     result.status = ScanStatus::kFallback;
     MatchRequest of_all = request;
     of_all.all_voxels = true;
     tracked.prepareAll();
     match = matcher_.match(tracked.map, sample, of_all);
   }
-  if (match.accepted) {
+  if (match.accepted()) {
     acceptance_.addHitRatio(match.hit_ratio);
     acceptance_.addBlocked(match.blocked);
     if (!published) acceptance_.addSigma(sigma);

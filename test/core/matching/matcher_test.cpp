@@ -233,7 +233,7 @@ TEST(Restarts, FindAPoseFarFromTheGuess) {
     request.all_voxels = true;
     request.seed = static_cast<uint64_t>(i);
     const auto isRight = [&](const MatchResult& result) {
-      return result.accepted && differenceOf(room.truth, result.T_map_sensor).metres < 0.03;
+      return result.accepted() && differenceOf(room.truth, result.T_map_sensor).metres < 0.03;
     };
     from_guess += isRight(room.matcher().align(room.map, room.sample, request)) ? 1 : 0;
     const MatchResult found = room.matcher().match(room.map, room.sample, request);
@@ -261,7 +261,7 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
     request.all_voxels = true;
     const auto result = room.matcher().match(
         room.map, sampleOf(voxelScans({sweep}, room.config)[0], 3000), request);
-    EXPECT_FALSE(result.accepted) << time;
+    EXPECT_FALSE(result.accepted()) << time;
     EXPECT_EQ(room.config.matcher.max_restarts, result.restarts);
     best = std::max(best, result.hit_ratio);
   }
@@ -280,19 +280,19 @@ TEST(Match, TooFarFromTheGuessIsNotAccepted) {
   for (const double farthest : {0.5, 4.5}) {
     request.max_translation = farthest;
     const MatchResult result = matcher.match(room.map, room.sample, request);
-    EXPECT_EQ(farthest > 0.6, result.accepted) << farthest << ": " << result.hit_ratio;
+    EXPECT_EQ(farthest > 0.6, result.accepted()) << farthest << ": " << result.hit_ratio;
     EXPECT_EQ(farthest > 0.6 ? Refusal::kNone : Refusal::kTooFar, result.refusal);
-    if (result.accepted) EXPECT_LT(differenceOf(room.truth, result.T_map_sensor).metres, 0.03);
+    if (result.accepted()) EXPECT_LT(differenceOf(room.truth, result.T_map_sensor).metres, 0.03);
   }
   // Farther off more is asked.
   request.far_hit_ratio = 1.01;
   request.far_translation = 0.5;
   const MatchResult far = matcher.match(room.map, room.sample, request);
-  EXPECT_FALSE(far.accepted);
+  EXPECT_FALSE(far.accepted());
   EXPECT_EQ(Refusal::kFewHits, far.refusal);
   EXPECT_EQ(1.01, far.required_hit_ratio);
   request.far_translation = 0.8;
-  EXPECT_TRUE(matcher.match(room.map, room.sample, request).accepted);
+  EXPECT_TRUE(matcher.match(room.map, room.sample, request).accepted());
 }
 
 double blockedAt(const Pose& pose) {
@@ -324,10 +324,10 @@ TEST(FreeSpace, MatchesThatSeeThroughWallsAreNotAccepted) {
   request.guess = room.truth;
   request.guess.translation().x() += 1.5;
   const auto matched = [&] { return Matcher(config).align(room.map, room.sample, request); };
-  EXPECT_TRUE(matched().accepted);
+  EXPECT_TRUE(matched().accepted());
   request.most_blocked = request.most_blocked_near = 0.1;
   const MatchResult result = matched();
-  EXPECT_FALSE(result.accepted);
+  EXPECT_FALSE(result.accepted());
   EXPECT_EQ(Refusal::kBlocked, result.refusal);
   EXPECT_GT(result.blocked, 0.1);
 }
@@ -358,7 +358,7 @@ TEST(Match, OfRandomPointsHasAnEnd) {
       sampleOf(voxelScans({randomSweep(5, 0.0, 100000)}, room.config)[0], 12000);
   const MatchResult result = room.matcher().match(room.map, random, request);
   RecordProperty("look_ups", static_cast<int>(result.look_ups));
-  EXPECT_FALSE(result.accepted);
+  EXPECT_FALSE(result.accepted());
   EXPECT_GT(result.restarts, 5);
   EXPECT_LT(result.look_ups, 13000000U);
 }
@@ -373,16 +373,16 @@ TEST(Match, BesideTheGridIsNone) {
       MatchRequest request;
       request.guess = room.truth;
       request.guess.translation().y() = absurd;
-      EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted) << absurd;
+      EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted()) << absurd;
       request.guess = room.truth;
       ScanSample sample = room.sample;
       sample[sample.size() / 2].z() = absurd;
-      EXPECT_FALSE(Matcher(config).match(room.map, sample, request).accepted) << absurd;
+      EXPECT_FALSE(Matcher(config).match(room.map, sample, request).accepted()) << absurd;
     }
     MatchRequest request;
     request.guess = room.truth;
     request.guess.linear()(1, 2) = nan;
-    EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted);
+    EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted());
   }
 }
 
@@ -410,7 +410,7 @@ TEST(Match, OfNothingIsHarmless) {
   request.guess = room.truth;
   request.required_hit_ratio = 0.5;
   const MatchResult result = room.matcher().match(room.map, {{0, 0, 50}, {1, 0, 50}}, request);
-  EXPECT_FALSE(result.accepted);
+  EXPECT_FALSE(result.accepted());
   EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
 }
 
