@@ -88,7 +88,7 @@ class Matcher {
     uint64_t look_ups = 0;
     return search(map, sample, points, guess, look_ups);
   }
-  /// The refinement alone, `steps` at most. hit_ratio and accepted are not set. It ends where the
+  /// The refinement alone, `steps` at most. Whether it is accepted is not asked. It ends where the
   /// pose leaves the grid's range.
   MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int steps,
                      bool all_voxels) const;

@@ -26,6 +26,8 @@ double rotationAngle(const Pose& a_b);
 /// Where the body is after `seconds`, in its frame at the start. The rotation is constant in the
 /// body, the translation straight.
 Pose moved(const Twist& twist, double seconds);
+/// The same if it keeps on so, but for 2 s at most, either way.
+Pose extrapolated(const Twist& twist, double seconds);
 /// The motion that takes the body by `T_from_to` in `seconds`: the inverse of moved().
 Twist twistOf(const Pose& T_from_to, double seconds);
 

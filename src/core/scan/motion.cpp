@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/scan/motion.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 namespace edgevox {
+namespace {
+
+constexpr double kLongestExtrapolation = 2.0;  // of the motion [s]
+
+}  // namespace
 
 Eigen::Matrix3d rotationOf(const Eigen::Vector3d& v) {
   const double angle = v.norm();
@@ -23,6 +30,10 @@ Pose moved(const Twist& twist, double seconds) {
   pose.linear() = rotationOf(twist.angular * seconds);
   pose.translation() = twist.linear * seconds;
   return pose;
+}
+
+Pose extrapolated(const Twist& twist, double seconds) {
+  return moved(twist, std::clamp(seconds, -kLongestExtrapolation, kLongestExtrapolation));
 }
 
 Twist twistOf(const Pose& T_from_to, double seconds) {

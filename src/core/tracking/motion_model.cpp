@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/tracking/motion_model.hpp"
 
-#include <algorithm>
-
 namespace edgevox {
 namespace {
 
-constexpr double kLongestExtrapolation = 2.0;  // of the motion [s]
 constexpr double kTwistGain = 0.5;  // half an interval from the mean velocity to the sweep
 
 }  // namespace
@@ -15,8 +12,7 @@ Pose MotionModel::predict(double time, const std::optional<Pose>& since_last, bo
   if (!last_) return T_map_sensor_;
   if (since_last) return last_->T_map_sensor * *since_last;
   if (!moving || !twist_) return last_->T_map_sensor;
-  const double seconds = std::min(time - last_->time, kLongestExtrapolation);
-  return last_->T_map_sensor * moved(*twist_, seconds);
+  return last_->T_map_sensor * extrapolated(*twist_, time - last_->time);
 }
 
 Twist MotionModel::predictTwist(const SweepPose& now, bool by_odometry) const {

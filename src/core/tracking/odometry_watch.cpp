@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/tracking/odometry_watch.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,7 +11,6 @@ constexpr double kLeastTranslation = 0.5;              // that is told from nois
 constexpr double kLeastRotation = 5.0 * M_PI / 180.0;  // the same [rad]
 constexpr double kMaxAcceleration = 20.0;              // [m/s^2]
 constexpr double kStandsStill = 1e-6;                  // at most [m]
-constexpr double kLongestExtrapolation = 2.0;          // [s]
 constexpr double kLeastInterval = 1e-3;                // that gives a velocity [s]
 
 /// from^-1 * to; far from the origin as exact as the poses are.
@@ -32,9 +30,10 @@ bool OdometryWatch::add(double stamp, const std::optional<Pose>& T_odom_sensor) 
   if (!before) return true;
   const double seconds = stamp - before->stamp;
   const Pose step = stepBetween(before->T_odom_sensor, *T_odom_sensor);
-  const bool possible = isInLimits(step, seconds) && hasInertia(step, seconds);
+  const bool in_limits = isInLimits(step, seconds);
+  const bool possible = in_limits && hasInertia(step, seconds);
   if (since_located_) *since_located_ = *since_located_ * (possible ? step : usualStep(seconds));
-  if (isInLimits(step, seconds) && std::abs(seconds) >= kLeastInterval) {
+  if (in_limits && std::abs(seconds) >= kLeastInterval) {
     last_step_ = twistOf(step, seconds);
     if (possible) velocity_ = last_step_;
   }
@@ -66,8 +65,7 @@ bool OdometryWatch::hasInertia(const Pose& step, double seconds) const {
 }
 
 Pose OdometryWatch::usualStep(double seconds) const {
-  if (!velocity_) return Pose::Identity();
-  return moved(*velocity_, std::clamp(seconds, -kLongestExtrapolation, kLongestExtrapolation));
+  return velocity_ ? extrapolated(*velocity_, seconds) : Pose::Identity();
 }
 
 }  // namespace edgevox
