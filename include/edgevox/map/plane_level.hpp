@@ -21,6 +21,9 @@ struct Plane {
   float information = 0.0F;                          ///< of a position across it [1/m^2]
 
   bool facesAway(const Eigen::Vector3f& to_sensor) const;
+  bool operator==(const Plane& other) const {
+    return normal == other.normal && offset == other.offset && information == other.information;
+  }
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
@@ -37,6 +40,10 @@ struct VoxelPlanes {
   bool forgotten = false;  ///< whether some of these have been dropped since
 
   void add(const Plane& plane) { sides[count++] = plane; }
+  bool operator==(const VoxelPlanes& other) const {
+    return sides == other.sides && count == other.count && points == other.points &&
+           voxels == other.voxels && forgotten == other.forgotten;
+  }
   const Plane* begin() const { return sides.data(); }
   const Plane* end() const { return sides.data() + count; }
 
@@ -63,7 +70,8 @@ class PlaneLevel {
   /// The plane of a voxel that faces the unit vector `to_sensor`, null if there is none.
   const Plane* find(const VoxelIndex& v, const Eigen::Vector3f& to_sensor) const;
 
-  /// The voxel has these planes, of which there may be none, and no others.
+  /// The voxel has these planes, of which there may be none, and no others. Where it has them
+  /// already nothing is written, so that copies go on sharing.
   void set(const VoxelIndex& v, const VoxelPlanes& planes);
 
   /// The number of voxels with planes.

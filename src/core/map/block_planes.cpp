@@ -61,11 +61,19 @@ struct Axes {
 
 using Sides = std::vector<const VoxelSide*>;
 
-Moments momentsOf(const Sides& sides) {
+/// Points of some sides together.
+struct Seen {
   Moments moments;
-  for (const VoxelSide* side : sides) moments += side->moments;
-  return moments;
-}
+  Eigen::Vector3d view = Eigen::Vector3d::Zero();
+
+  explicit Seen(const Sides& sides) {
+    for (const VoxelSide* side : sides) {
+      moments += side->moments;
+      view += side->view;
+    }
+  }
+  bool isEnough() const { return moments.count >= kFewest; }
+};
 
 /// Whether the points lie at two places along an axis. Kurtosis - skewness^2 - 1 is 0 for two
 /// values, .8 where all between two values are alike.
@@ -97,15 +105,12 @@ bool isPairOfLines(const Sides& sides, const Moments& all, const Axes& axes) {
          areAtTwoPlaces(sides, all, axes.normal.cross(axes.across));
 }
 
-/// `centre`: of the voxel, from where the moments are counted.
-std::optional<Plane> planeOf(const Sides& sides, double size, const Eigen::Vector3d& centre) {
-  const Moments moments = momentsOf(sides);
-  if (moments.count < kFewest) return std::nullopt;
-  const Axes axes(moments);
+/// Of enough points; `centre`: of the voxel, from where the moments are counted.
+std::optional<Plane> planeOf(const Sides& sides, const Seen& seen, const Axes& axes, double size,
+                             const Eigen::Vector3d& centre) {
+  const Moments& moments = seen.moments;
   if (!axes.isFlat(size) || isPairOfLines(sides, moments, axes)) return std::nullopt;
-  Eigen::Vector3d view = Eigen::Vector3d::Zero();
-  for (const VoxelSide* side : sides) view += side->view;
-  const Eigen::Vector3d normal = axes.normal * (axes.normal.dot(view) < 0 ? -1.0 : 1.0);
+  const Eigen::Vector3d normal = axes.normal * (axes.normal.dot(seen.view) < 0 ? -1.0 : 1.0);
   Plane plane;
   plane.normal = normal.cast<float>();
   plane.offset = static_cast<float>(normal.dot(moments.sum / moments.count - centre));
@@ -116,16 +121,25 @@ std::optional<Plane> planeOf(const Sides& sides, double size, const Eigen::Vecto
 /// Where the two sides of a wall were seen, each is a plane of its own.
 VoxelPlanes planesOfVoxel(const Sides& sides, double size, const Eigen::Vector3d& centre) {
   VoxelPlanes planes;
-  const Moments all = momentsOf(sides);
-  planes.points = static_cast<uint32_t>(all.count);
+  const Seen all(sides);
+  planes.points = static_cast<uint32_t>(all.moments.count);
   planes.voxels = static_cast<uint32_t>(sides.size());
-  if (all.count < kFewest) return planes;
-  const Eigen::Vector3d normal = Axes(all).normal;
+  if (!all.isEnough()) return planes;
+  const Axes axes(all.moments);
   std::array<Sides, 2> halves;
-  for (const VoxelSide* side : sides) halves[normal.dot(side->view) < 0 ? 1 : 0].push_back(side);
-  for (const Sides& half : halves) {
-    const auto plane = planeOf(half, size, centre);
+  for (const VoxelSide* side : sides) {
+    halves[axes.normal.dot(side->view) < 0 ? 1 : 0].push_back(side);
+  }
+  const auto add = [&](const std::optional<Plane>& plane) {
     if (plane) planes.add(*plane);
+  };
+  if (halves[0].empty() || halves[1].empty()) {
+    add(planeOf(sides, all, axes, size, centre));
+    return planes;
+  }
+  for (const Sides& half : halves) {
+    const Seen seen(half);
+    if (seen.isEnough()) add(planeOf(half, seen, Axes(seen.moments), size, centre));
   }
   return planes;
 }

@@ -39,7 +39,7 @@ void PlaneLevel::set(const VoxelIndex& v, const VoxelPlanes& planes) {
     grid_.insert(v, slot);
     planes_.hold(slot);
   }
-  planes_.edit(slot) = planes;
+  if (!(planes_[slot] == planes)) planes_.edit(slot) = planes;
 }
 
 void PlaneLevel::checkRead() {
