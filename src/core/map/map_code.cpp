@@ -51,25 +51,13 @@ struct Flags {
   }
 };
 
-/// The selected surfaces.
-struct SurfacesCode {
-  Flags selected;   // of the occupied voxels
-  Flags two_sided;  // of the selected ones
-  SurfaceCode front;
-  SurfaceCode back;
-
-  template <typename Self, typename Archive>
-  static void archive(Self& self, Archive& bytes) {
-    bytes(self.selected, self.two_sided, self.front, self.back);
-  }
-};
-
-/// The planes of a level.
-struct PlaneLevelCode {
+/// What some voxels have on one side or on both, by SurfaceCode or PlaneCode.
+template <typename Code>
+struct SidedCode {
   Flags known;      // of the occupied voxels
-  Flags two_sided;  // of those with planes
-  PlaneCode front;
-  PlaneCode back;
+  Flags two_sided;  // of the known ones
+  Code front;
+  Code back;
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
@@ -82,12 +70,12 @@ struct MapCode {
   VoxelTree single;                      // occupied voxels of level 1 that hold none of these
   Flags edges;                           // of the hit voxels
   std::array<PackedBytes, 3> centroids;  // of the edges
-  SurfacesCode surfaces;                 // none with the representation `edges`
+  SidedCode<SurfaceCode> surfaces;  // of the selected voxels; none with the representation `edges`
   // With that: of the voxels beside edges, and which of those of level 1 that hold edges have no
   // surface in the file: two-sided ones, as centroids do not tell the sides apart.
   std::array<PackedBytes, 3> beside;
   Flags without_surface;
-  std::vector<PlaneLevelCode> planes;  // from MatchMap::kFinestPlanes on
+  std::vector<SidedCode<PlaneCode>> planes;  // from MatchMap::kFinestPlanes on
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
@@ -106,9 +94,9 @@ std::vector<VoxelIndex> parentsOf(const std::vector<VoxelIndex>& voxels) {
 }
 
 void addSurfaces(const SurfaceLevel& level, const std::vector<VoxelIndex>& occupied,
-                 SurfacesCode& code) {
-  code.selected = Flags(occupied, [&](const VoxelIndex& v) { return level.isSelected(v); });
-  const std::vector<VoxelIndex> selected = code.selected.of(occupied);
+                 SidedCode<SurfaceCode>& code) {
+  code.known = Flags(occupied, [&](const VoxelIndex& v) { return level.isSelected(v); });
+  const std::vector<VoxelIndex> selected = code.known.of(occupied);
   code.two_sided =
       Flags(selected, [&](const VoxelIndex& v) { return level.hasBack(level.slotOf(v)); });
   for (const VoxelIndex& v : selected) {
@@ -120,7 +108,7 @@ void addSurfaces(const SurfaceLevel& level, const std::vector<VoxelIndex>& occup
 }
 
 void addPlanes(const PlaneLevel& level, const std::vector<VoxelIndex>& occupied,
-               PlaneLevelCode& code) {
+               SidedCode<PlaneCode>& code) {
   code.known = Flags(occupied, [&](const VoxelIndex& v) { return level.find(v) != nullptr; });
   const std::vector<VoxelIndex> known = code.known.of(occupied);
   code.two_sided = Flags(known, [&](const VoxelIndex& v) { return level.find(v)->count == 2; });
@@ -131,7 +119,7 @@ void addPlanes(const PlaneLevel& level, const std::vector<VoxelIndex>& occupied,
   }
 }
 
-void makePlanes(const PlaneLevelCode& code, const std::vector<VoxelIndex>& occupied,
+void makePlanes(const SidedCode<PlaneCode>& code, const std::vector<VoxelIndex>& occupied,
                 PlaneLevel& level) {
   const std::vector<VoxelIndex> known = code.known.of(occupied);
   const std::vector<VoxelIndex> two_sided = code.two_sided.of(known);
@@ -153,9 +141,9 @@ void setSurface(uint32_t slot, const Surface& surface, SurfaceLevel& level) {
   level.editSurface(slot).back_surface = back;
 }
 
-void makeSurfaces(const SurfacesCode& code, const std::vector<VoxelIndex>& occupied,
+void makeSurfaces(const SidedCode<SurfaceCode>& code, const std::vector<VoxelIndex>& occupied,
                   SurfaceLevel& level) {
-  const std::vector<VoxelIndex> selected = code.selected.of(occupied);
+  const std::vector<VoxelIndex> selected = code.known.of(occupied);
   const std::vector<VoxelIndex> two_sided = code.two_sided.of(selected);
   for (size_t i = 0; i < selected.size(); ++i) {
     setSurface(level.insert(selected[i]), code.front.surface(i, selected[i], level.voxelSize()),
