@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "core/matching/correspondences.hpp"
 #include "edgevox/matching/free_space.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "edgevox/statistics.hpp"
@@ -30,7 +31,6 @@ constexpr int kRefineSteps = 11;             // at most
 constexpr double kLargestMove = 10.0;        // of one step [m, rad]
 constexpr double kConvergedDistance = 5e-4;  // [m]
 constexpr double kConvergedAngle = 5e-5;     // [rad]
-constexpr double kRobustScale = 9.0;         // squared Mahalanobis distance
 
 /// A move of the discrete search: translation in the map's axes, rotation about the sensor.
 using Move = Eigen::Matrix<double, 6, 1>;
@@ -114,147 +114,10 @@ std::vector<Move> coupledMoves(double step, double angle) {
   return moves;
 }
 
-/// Normal equations of one Gauss-Newton step.
-struct NormalEquations {
-  Matrix6 h = Matrix6::Zero();
-  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
-  int matches = 0;
-  double weight = 0.0;
-
-  /// Residual e of a point `lever` from the sensor; J = [I, -[lever]x].
-  void add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e, const Eigen::Vector3d& lever) {
-    Eigen::Matrix3d cross;
-    cross << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0;
-    const Eigen::Matrix3d wc = w * cross;
-    const Eigen::Vector3d we = w * e;
-    h.topLeftCorner<3, 3>() += w;
-    h.topRightCorner<3, 3>() -= wc;
-    h.bottomRightCorner<3, 3>() -= cross * wc;
-    b.head<3>() += we;
-    b.tail<3>() += lever.cross(we);
-    ++matches;
-  }
-
-  /// The same of a point that is `e` off a plane.
-  void add(const Eigen::Vector3d& normal, double information, double e,
-           const Eigen::Vector3d& lever) {
-    const Eigen::Vector3d turn = lever.cross(normal);
-    const Eigen::Vector3d wn = information * normal;
-    h.topLeftCorner<3, 3>() += wn * normal.transpose();
-    h.topRightCorner<3, 3>() += wn * turn.transpose();
-    h.bottomRightCorner<3, 3>() += information * turn * turn.transpose();
-    b.head<3>() += e * wn;
-    b.tail<3>() += information * e * turn;
-    ++matches;
-  }
-
-  void finish() { h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose(); }
-};
-
 /// How far a change of pose moves the sensor, or a point at `range` around it.
 double largestStep(const Pose& from, const Pose& to, double range) {
   const Pose change = from.inverse() * to;
   return std::max(change.translation().norm(), rotationAngle(change) * range);
-}
-
-/// A plane, in the map frame.
-struct PlaneInMap {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double offset = 0.0;       // along the normal, of its points [m]
-  double information = 0.0;  // [1/m^2]; 0: there is none
-
-  bool known() const { return information > 0; }
-};
-
-/// That of the finest voxel with one: where coarser ones have planes too, that is the flattest.
-PlaneInMap planeAt(const MatchMap& map, const Eigen::Vector3f& point,
-                   const Eigen::Vector3f& to_sensor) {
-  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
-    const PlaneLevel& level = map.planes(l);
-    const VoxelIndex v = level.voxelOf(point);
-    const Plane* plane = level.find(v, to_sensor);
-    if (plane == nullptr) continue;
-    const Eigen::Vector3d normal = plane->normal.cast<double>();
-    return {normal,
-            normal.dot(voxelCentre(v, level.voxelSize())) + static_cast<double>(plane->offset),
-            static_cast<double>(plane->information)};
-  }
-  return {};
-}
-
-/// A point of a sample and what it is matched to: the plane that it is near, else what is around.
-struct NearPoint {
-  Eigen::Vector3d point;
-  SurfaceLevel::Around around;
-  PlaneInMap plane;
-
-  bool lookUp(const MatchMap& map, const Eigen::Vector3f& in_map, const Eigen::Vector3f& to_sensor,
-              bool all_voxels) {
-    const SurfaceLevel& surfaces = map.surfaces();
-    plane = planeAt(map, in_map, to_sensor);
-    around.voxel = surfaces.voxelOf(in_map);
-    if (plane.known()) return true;
-    around = surfaces.around(around.voxel, all_voxels);
-    return around.count > 0;
-  }
-};
-
-/// The first `wanted` points of the sample that have a surface to match at this pose.
-std::vector<NearPoint> pointsNear(const MatchMap& map, const ScanSample& sample, size_t wanted,
-                                  const Pose& pose, bool all_voxels, uint64_t& look_ups) {
-  std::vector<NearPoint> near;
-  near.reserve(wanted);
-  for (const Eigen::Vector3d& point : sample) {
-    if (near.size() == wanted) break;
-    ++look_ups;
-    const Eigen::Vector3d lever = pose.linear() * point;
-    NearPoint found;
-    found.point = point;
-    if (found.lookUp(map, (pose.translation() + lever).cast<float>(),
-                     -lever.normalized().cast<float>(), all_voxels)) {
-      near.push_back(found);
-    }
-  }
-  return near;
-}
-
-double robustWeight(double squared_distance) {
-  const double weight = kRobustScale / (kRobustScale + squared_distance);
-  return weight * weight;
-}
-
-/// Points that have moved to another voxel are given what is there.
-NormalEquations linearise(const MatchMap& map, std::vector<NearPoint>& near, const Pose& pose,
-                          bool all_voxels) {
-  const SurfaceLevel& surfaces = map.surfaces();
-  NormalEquations equations;
-  for (NearPoint& of_scan : near) {
-    const Eigen::Vector3d lever = pose.linear() * of_scan.point;
-    const Eigen::Vector3d point = pose.translation() + lever;
-    const Eigen::Vector3f point_f = point.cast<float>();
-    const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
-    if (surfaces.voxelOf(point_f) != of_scan.around.voxel) {
-      of_scan.lookUp(map, point_f, to_sensor, all_voxels);
-    }
-    if (const PlaneInMap& plane = of_scan.plane; plane.known()) {
-      const double e = plane.normal.dot(point) - plane.offset;
-      const double weight = robustWeight(e * e * plane.information);
-      equations.weight += weight;
-      equations.add(plane.normal, weight * plane.information, e, lever);
-      continue;
-    }
-    float distance = 0;
-    const Surface* g = surfaces.nearest(of_scan.around, point_f, to_sensor, distance);
-    if (g == nullptr) continue;
-    const double weight = robustWeight(static_cast<double>(distance));
-    const auto& m = g->information;
-    Eigen::Matrix3d w;
-    w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
-    equations.weight += weight;
-    equations.add(w * weight, point - g->mean.cast<double>(), lever);
-  }
-  equations.finish();
-  return equations;
 }
 
 /// Uniform in [-1, 1), the same on every machine.
@@ -405,15 +268,15 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample, const
   const size_t wanted = refinePoints(sample);
   if (wanted == 0) return result;
   const double range = medianRange(sample, wanted);
-  std::vector<NearPoint> near;
+  Correspondences near(map, sample, wanted, all_voxels);
   Pose near_pose;
   for (int step = 0; step < steps; ++step) {
     if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
-      near = pointsNear(map, sample, wanted, pose, all_voxels, result.look_ups);
+      near.find(pose);
       near_pose = pose;
     }
-    const auto equations = linearise(map, near, pose, all_voxels);
-    result.look_ups += near.size();
+    const NormalEquations equations = near.linearise(pose);
+    result.look_ups = near.lookUps();
     result.matches = equations.matches;
     result.information = equations.h;
     result.fit = equations.weight / static_cast<double>(wanted);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/matching/correspondences.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kRobustScale = 9.0;  // squared Mahalanobis distance
+
+double robustWeight(double squared_distance) {
+  const double weight = kRobustScale / (kRobustScale + squared_distance);
+  return weight * weight;
+}
+
+/// That of the finest voxel with one: where coarser ones have planes too, that is the flattest.
+PlaneInMap planeAt(const MatchMap& map, const Eigen::Vector3f& point,
+                   const Eigen::Vector3f& to_sensor) {
+  for (int l = MatchMap::kFinestPlanes; l <= MatchMap::kCoarsestPlanes; ++l) {
+    const PlaneLevel& level = map.planes(l);
+    const VoxelIndex v = level.voxelOf(point);
+    const Plane* plane = level.find(v, to_sensor);
+    if (plane == nullptr) continue;
+    const Eigen::Vector3d normal = plane->normal.cast<double>();
+    return {normal,
+            normal.dot(voxelCentre(v, level.voxelSize())) + static_cast<double>(plane->offset),
+            static_cast<double>(plane->information)};
+  }
+  return {};
+}
+
+}  // namespace
+
+void NormalEquations::add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e,
+                          const Eigen::Vector3d& lever) {
+  Eigen::Matrix3d cross;
+  cross << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0;
+  const Eigen::Matrix3d wc = w * cross;
+  const Eigen::Vector3d we = w * e;
+  h.topLeftCorner<3, 3>() += w;
+  h.topRightCorner<3, 3>() -= wc;
+  h.bottomRightCorner<3, 3>() -= cross * wc;
+  b.head<3>() += we;
+  b.tail<3>() += lever.cross(we);
+  ++matches;
+}
+
+void NormalEquations::add(const Eigen::Vector3d& normal, double information, double e,
+                          const Eigen::Vector3d& lever) {
+  const Eigen::Vector3d turn = lever.cross(normal);
+  const Eigen::Vector3d wn = information * normal;
+  h.topLeftCorner<3, 3>() += wn * normal.transpose();
+  h.topRightCorner<3, 3>() += wn * turn.transpose();
+  h.bottomRightCorner<3, 3>() += information * turn * turn.transpose();
+  b.head<3>() += e * wn;
+  b.tail<3>() += information * e * turn;
+  ++matches;
+}
+
+bool Correspondences::lookUp(const Eigen::Vector3f& in_map, const Eigen::Vector3f& to_sensor,
+                             NearPoint& near) const {
+  const SurfaceLevel& surfaces = map_.surfaces();
+  near.plane = planeAt(map_, in_map, to_sensor);
+  near.around.voxel = surfaces.voxelOf(in_map);
+  if (near.plane.known()) return true;
+  near.around = surfaces.around(near.around.voxel, all_voxels_);
+  return near.around.count > 0;
+}
+
+void Correspondences::find(const Pose& T_map_sensor) {
+  near_.clear();
+  for (const Eigen::Vector3d& point : sample_) {
+    if (near_.size() == wanted_) break;
+    ++look_ups_;
+    const Eigen::Vector3d lever = T_map_sensor.linear() * point;
+    NearPoint near;
+    near.point = point;
+    if (lookUp((T_map_sensor.translation() + lever).cast<float>(),
+               -lever.normalized().cast<float>(), near)) {
+      near_.push_back(near);
+    }
+  }
+}
+
+NormalEquations Correspondences::linearise(const Pose& T_map_sensor) {
+  const SurfaceLevel& surfaces = map_.surfaces();
+  NormalEquations equations;
+  look_ups_ += near_.size();
+  for (NearPoint& near : near_) {
+    const Eigen::Vector3d lever = T_map_sensor.linear() * near.point;
+    const Eigen::Vector3d point = T_map_sensor.translation() + lever;
+    const Eigen::Vector3f point_f = point.cast<float>();
+    const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
+    if (surfaces.voxelOf(point_f) != near.around.voxel) lookUp(point_f, to_sensor, near);
+    if (const PlaneInMap& plane = near.plane; plane.known()) {
+      const double e = plane.normal.dot(point) - plane.offset;
+      const double weight = robustWeight(e * e * plane.information);
+      equations.weight += weight;
+      equations.add(plane.normal, weight * plane.information, e, lever);
+      continue;
+    }
+    float distance = 0;
+    const Surface* g = surfaces.nearest(near.around, point_f, to_sensor, distance);
+    if (g == nullptr) continue;
+    const double weight = robustWeight(static_cast<double>(distance));
+    const auto& m = g->information;
+    Eigen::Matrix3d w;
+    w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
+    equations.weight += weight;
+    equations.add(w * weight, point - g->mean.cast<double>(), lever);
+  }
+  equations.finish();
+  return equations;
+}
+
+}  // namespace edgevox
