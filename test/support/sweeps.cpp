@@ -96,6 +96,16 @@ std::vector<VoxelScan> voxelScans(const std::vector<Sweep>& sweeps, const Config
   return scans;
 }
 
+const Walk& buildingWalk() {
+  static const Walk made = simulateWalk(sim::WorldName::Building, "32", 15, 60);
+  return made;
+}
+
+const std::vector<VoxelScan>& buildingScans() {
+  static const std::vector<VoxelScan> made = voxelScans(buildingWalk().sweeps, Config{});
+  return made;
+}
+
 Sweep randomSweep(uint32_t seed, double stamp, int points) {
   Random random(seed);
   Sweep sweep;

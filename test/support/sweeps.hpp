@@ -42,6 +42,11 @@ sim::World furnishedRoom();
 
 std::vector<VoxelScan> voxelScans(const std::vector<Sweep>& sweeps, const Config& config);
 
+/// The first 60 sweeps of 32 beams in motion in the building: until then the sensor stands still.
+const Walk& buildingWalk();
+/// Their voxel scans with the defaults.
+const std::vector<VoxelScan>& buildingScans();
+
 /// Points at random in a cube of 10 m about the sensor.
 Sweep randomSweep(uint32_t seed, double stamp, int points);
 

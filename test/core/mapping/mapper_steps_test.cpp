@@ -11,17 +11,10 @@
 namespace edgevox::test {
 namespace {
 
-const std::vector<VoxelScan>& scans() {
-  constexpr int kFirst = 15;  // the sensor stands still for the first second
-  static const std::vector<VoxelScan> made =
-      voxelScans(simulateWalk(sim::WorldName::Building, "32", kFirst, 12).sweeps, Config{});
-  return made;
-}
-
 TEST(MapperSteps, AreTheWholeInTwo) {
   Mapper whole{Config{}};
   Mapper steps{Config{}};
-  for (const VoxelScan& scan : scans()) {
+  for (const VoxelScan& scan : buildingScans()) {
     const ScanResult expected = whole.process(scan);
     ScanResult result = steps.track(scan);
     EXPECT_EQ(expected.status, result.status);
@@ -39,10 +32,10 @@ TEST(MapperSteps, AreTheWholeInTwo) {
 
 TEST(MapperSteps, LeaveTheMapToAScanThatIsLost) {
   Mapper mapper{Config{}};
-  for (const VoxelScan& scan : scans()) mapper.process(scan);
+  for (const VoxelScan& scan : buildingScans()) mapper.process(scan);
   const auto before = voxelsOf(mapper.map().hitVoxels());
   const VoxelScan lost =
-      voxelScans({randomSweep(7, scans().back().stamp + 0.1, 20000)}, Config{}).front();
+      voxelScans({randomSweep(7, buildingScans().back().stamp + 0.1, 20000)}, Config{}).front();
   EXPECT_EQ(ScanStatus::kLost, mapper.track(lost).status);
   EXPECT_TRUE(sameVoxels(before, voxelsOf(mapper.map().hitVoxels())));
 }

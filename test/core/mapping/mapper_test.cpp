@@ -15,19 +15,6 @@
 namespace edgevox::test {
 namespace {
 
-constexpr int kFirst = 15;  // the sensor stands still for the first second
-constexpr int kCount = 60;
-
-const Walk& walk() {
-  static const Walk made = simulateWalk(sim::WorldName::Building, "32", kFirst, kCount);
-  return made;
-}
-
-const std::vector<VoxelScan>& scans() {
-  static const std::vector<VoxelScan> made = voxelScans(walk().sweeps, Config{});
-  return made;
-}
-
 VoxelScan randomScan(double stamp) {
   VoxelScan scan = voxelScans({randomSweep(7, stamp, 20000)}, Config{})[0];
   scan.number = 1000;
@@ -37,7 +24,7 @@ VoxelScan randomScan(double stamp) {
 /// A mapper that has seen the first `count` scans.
 Mapper mapperAfter(size_t count) {
   Mapper mapper{Config{}};
-  for (size_t i = 0; i < count; ++i) EXPECT_TRUE(mapper.process(scans()[i]).located()) << i;
+  for (size_t i = 0; i < count; ++i) EXPECT_TRUE(mapper.process(buildingScans()[i]).located()) << i;
   return mapper;
 }
 
@@ -69,7 +56,7 @@ struct MapState {
 
 std::vector<ScanResult> processAll(Mapper& mapper, size_t count) {
   std::vector<ScanResult> results;
-  for (size_t i = 0; i < count; ++i) results.push_back(mapper.process(scans()[i]));
+  for (size_t i = 0; i < count; ++i) results.push_back(mapper.process(buildingScans()[i]));
   return results;
 }
 
@@ -84,8 +71,8 @@ TEST(Status, OfTheFirstScansIsFirstThenFallbackThenTracked) {
   }
   EXPECT_EQ(12U, mapper.map().scans());
   for (size_t i = 0; i < results.size(); ++i) {
-    EXPECT_EQ(scans()[i].stamp, results[i].stamp);
-    EXPECT_EQ(scans()[i].number, results[i].number);
+    EXPECT_EQ(buildingScans()[i].stamp, results[i].stamp);
+    EXPECT_EQ(buildingScans()[i].number, results[i].number);
   }
 }
 
@@ -93,24 +80,24 @@ TEST(Status, OfALateOrRepeatedScanIsStale) {
   Mapper mapper = mapperAfter(5);
   const MapState before(mapper);
   for (const size_t late : {4U, 2U}) {
-    const ScanResult result = mapper.process(scans()[late]);
+    const ScanResult result = mapper.process(buildingScans()[late]);
     EXPECT_EQ(ScanStatus::kStale, result.status);
     EXPECT_FALSE(result.located());
   }
-  VoxelScan no_time = scans()[5];
+  VoxelScan no_time = buildingScans()[5];
   no_time.stamp = std::nan("");
   EXPECT_EQ(ScanStatus::kStale, mapper.process(no_time).status);
   EXPECT_TRUE(before == MapState(mapper));
   Mapper other = mapperAfter(5);
-  EXPECT_TRUE(
-      sameBits(other.process(scans()[5]).T_map_sensor, mapper.process(scans()[5]).T_map_sensor));
+  EXPECT_TRUE(sameBits(other.process(buildingScans()[5]).T_map_sensor,
+                       mapper.process(buildingScans()[5]).T_map_sensor));
 }
 
 TEST(Status, OfAScanOfAFewVoxelsIsTooFew) {
   for (const size_t before : {0U, 5U}) {
     Mapper mapper = mapperAfter(before);
     const MapState state(mapper);
-    VoxelScan few = scans()[before];
+    VoxelScan few = buildingScans()[before];
     few.voxels.resize(49);
     few.stamp -= 0.01;
     EXPECT_EQ(ScanStatus::kTooFew, mapper.process(few).status);
@@ -119,32 +106,33 @@ TEST(Status, OfAScanOfAFewVoxelsIsTooFew) {
     EXPECT_EQ(ScanStatus::kTooFew, mapper.process(few).status);
     EXPECT_TRUE(state == MapState(mapper));
     Mapper other = mapperAfter(before);
-    EXPECT_TRUE(sameBits(other.process(scans()[before]).T_map_sensor,
-                         mapper.process(scans()[before]).T_map_sensor));
+    EXPECT_TRUE(sameBits(other.process(buildingScans()[before]).T_map_sensor,
+                         mapper.process(buildingScans()[before]).T_map_sensor));
   }
 }
 
 TEST(Status, OfAScanOfMoreVoxelsThanAllowedIsTooLarge) {
   Config config;
-  config.voxelizer.max_voxels = static_cast<int>(scans()[3].voxels.size());
+  config.voxelizer.max_voxels = static_cast<int>(buildingScans()[3].voxels.size());
   Mapper mapper{config};
-  VoxelScan large = scans()[2];
-  while (large.voxels.size() <= scans()[3].voxels.size()) large.voxels.push_back(large.voxels[7]);
+  VoxelScan large = buildingScans()[2];
+  while (large.voxels.size() <= buildingScans()[3].voxels.size())
+    large.voxels.push_back(large.voxels[7]);
   EXPECT_EQ(ScanStatus::kTooLarge, mapper.process(large).status);
   EXPECT_TRUE(mapper.map().empty());
-  VoxelScan given_up = scans()[2];
+  VoxelScan given_up = buildingScans()[2];
   given_up.too_large = "it has too many points";
   EXPECT_EQ(ScanStatus::kTooLarge, mapper.process(given_up).status);
-  EXPECT_EQ(ScanStatus::kFirst, mapper.process(scans()[3]).status);
+  EXPECT_EQ(ScanStatus::kFirst, mapper.process(buildingScans()[3]).status);
 }
 
 TEST(Lost, ABadScanChangesNothingAndTheNextIsTracked) {
   Mapper mapper = mapperAfter(20);
   const MapState before(mapper);
   Mapper other = mapperAfter(19);
-  const Pose last = other.process(scans()[19]).T_map_sensor;
+  const Pose last = other.process(buildingScans()[19]).T_map_sensor;
 
-  const ScanResult lost = mapper.process(randomScan(scans()[20].stamp));
+  const ScanResult lost = mapper.process(randomScan(buildingScans()[20].stamp));
   EXPECT_EQ(ScanStatus::kLost, lost.status);
   EXPECT_FALSE(lost.located());
   EXPECT_LT(lost.hit_ratio, lost.required_hit_ratio);
@@ -152,9 +140,9 @@ TEST(Lost, ABadScanChangesNothingAndTheNextIsTracked) {
   EXPECT_TRUE(before == MapState(mapper));
 
   for (size_t i = 21; i < 26; ++i) {
-    const ScanResult result = mapper.process(scans()[i]);
+    const ScanResult result = mapper.process(buildingScans()[i]);
     EXPECT_TRUE(result.located()) << i;
-    const PoseDifference error = differenceOf(walk().truth[i].pose, result.T_map_sensor);
+    const PoseDifference error = differenceOf(buildingWalk().truth[i].pose, result.T_map_sensor);
     EXPECT_LT(error.metres, 0.05);
   }
 }
@@ -162,16 +150,16 @@ TEST(Lost, ABadScanChangesNothingAndTheNextIsTracked) {
 TEST(Lost, SeveralBadScansInARowAreSurvived) {
   Mapper mapper = mapperAfter(20);
   for (size_t i = 20; i < 24; ++i) {
-    EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(scans()[i].stamp)).status);
+    EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(buildingScans()[i].stamp)).status);
   }
-  const ScanResult result = mapper.process(scans()[24]);
+  const ScanResult result = mapper.process(buildingScans()[24]);
   EXPECT_TRUE(result.located());
-  EXPECT_LT(differenceOf(walk().truth[24].pose, result.T_map_sensor).metres, 0.05);
+  EXPECT_LT(differenceOf(buildingWalk().truth[24].pose, result.T_map_sensor).metres, 0.05);
 }
 
 /// Sweep i by a sensor that has turned by `T_still_turned`.
 VoxelScan turnedScan(size_t i, const Pose& T_still_turned) {
-  Sweep sweep = walk().sweeps[i];
+  Sweep sweep = buildingWalk().sweeps[i];
   for (auto& [x, y, z, time] : sweep.points) {
     const Eigen::Vector3f p = (T_still_turned.inverse() * Eigen::Vector3d(x, y, z)).cast<float>();
     x = p.x();
@@ -220,17 +208,18 @@ TEST(Odometry, OfUtmCoordinatesStartsTheMapAtTheSensor) {
   Mapper mapper{Config{}};
   const Pose T_map_first(T_odom_map.rotation());
   for (size_t i = 0; i < 10; ++i) {
-    const Pose T_odom_sensor = T_odom_map * walk().truth[i].pose;
-    const ScanResult result = mapper.process(scans()[i], {T_odom_sensor, T_odom_sensor});
+    const Pose T_odom_sensor = T_odom_map * buildingWalk().truth[i].pose;
+    const ScanResult result = mapper.process(buildingScans()[i], {T_odom_sensor, T_odom_sensor});
     ASSERT_TRUE(result.located());
-    EXPECT_LT(differenceOf(T_map_first * walk().truth[i].pose, result.T_map_sensor).metres, 0.03);
+    EXPECT_LT(differenceOf(T_map_first * buildingWalk().truth[i].pose, result.T_map_sensor).metres,
+              0.03);
   }
   EXPECT_GT(mapper.map().hitVoxels().voxelCount(), 1000U);
 }
 
 /// Scan i, `seconds` later.
 VoxelScan shifted(size_t i, double seconds) {
-  VoxelScan scan = scans()[i];
+  VoxelScan scan = buildingScans()[i];
   scan.stamp += seconds;
   return scan;
 }
@@ -241,8 +230,8 @@ TEST(Clock, OneScanFromLongAgoIsStaleAndChangesNothing) {
   EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(20, -100)).status);
   EXPECT_TRUE(before == MapState(mapper));
   Mapper other = mapperAfter(20);
-  EXPECT_TRUE(
-      sameBits(other.process(scans()[20]).T_map_sensor, mapper.process(scans()[20]).T_map_sensor));
+  EXPECT_TRUE(sameBits(other.process(buildingScans()[20]).T_map_sensor,
+                       mapper.process(buildingScans()[20]).T_map_sensor));
   // Nor do several of them that do not follow one another.
   for (const double seconds : {-50.0, -50.0, -60.0}) {
     EXPECT_EQ(ScanStatus::kStale, mapper.process(shifted(21, seconds)).status);
@@ -257,7 +246,7 @@ TEST(Clock, AfterAJumpBackTheMapIsKept) {
     const ScanResult result = mapper.process(shifted(i, -100));
     EXPECT_TRUE(result.located()) << i;
     EXPECT_EQ(i == 21, result.clock_jumped);
-    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+    EXPECT_LT(differenceOf(buildingWalk().truth[i].pose, result.T_map_sensor).metres, 0.05);
   }
   EXPECT_EQ(scans_before + 5, mapper.map().scans());
 }
@@ -278,18 +267,18 @@ TEST(Clock, AfterAJumpBackTheMapIsClearedIfConfigured) {
 TEST(Clock, AScanFromTheFutureDoesNotStopTheMapping) {
   Mapper mapper = mapperAfter(20);
   mapper.process(shifted(20, 1000));
-  EXPECT_EQ(ScanStatus::kStale, mapper.process(scans()[21]).status);
+  EXPECT_EQ(ScanStatus::kStale, mapper.process(buildingScans()[21]).status);
   for (size_t i = 22; i < 25; ++i) {
-    const ScanResult result = mapper.process(scans()[i]);
+    const ScanResult result = mapper.process(buildingScans()[i]);
     EXPECT_TRUE(result.located()) << i;
-    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+    EXPECT_LT(differenceOf(buildingWalk().truth[i].pose, result.T_map_sensor).metres, 0.05);
   }
 }
 
 TEST(Clock, ALostScanWithAWrongStampDoesNotMakeTheNextOnesLate) {
   Mapper mapper = mapperAfter(20);
   EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(1e3)).status);
-  EXPECT_TRUE(mapper.process(scans()[20]).located());
+  EXPECT_TRUE(mapper.process(buildingScans()[20]).located());
 }
 
 constexpr double kDay = 86400.0;  // [s]
@@ -309,9 +298,9 @@ TEST(Clock, ScansFromFarAheadChangeNothingUnlessTheyFollowOneAnother) {
   }
   EXPECT_TRUE(before == MapState(mapper));
   for (size_t i = 20; i < 24; ++i) {
-    const ScanResult result = mapper.process(scans()[i]);
+    const ScanResult result = mapper.process(buildingScans()[i]);
     EXPECT_TRUE(result.located() && !result.ahead);
-    EXPECT_TRUE(sameBits(other.process(scans()[i]).T_map_sensor, result.T_map_sensor));
+    EXPECT_TRUE(sameBits(other.process(buildingScans()[i]).T_map_sensor, result.T_map_sensor));
     expectAhead(mapper.process(shifted(i, kDay)));  // the good one between them speaks against it
   }
 }
@@ -322,7 +311,7 @@ TEST(Clock, AfterAPauseTheSecondScanIsUsed) {
   for (size_t i = 21; i < 24; ++i) {
     const ScanResult result = mapper.process(shifted(i, kDay));
     EXPECT_TRUE(result.located()) << i;
-    EXPECT_LT(differenceOf(walk().truth[i].pose, result.T_map_sensor).metres, 0.05);
+    EXPECT_LT(differenceOf(buildingWalk().truth[i].pose, result.T_map_sensor).metres, 0.05);
   }
 }
 
@@ -332,12 +321,13 @@ TEST(Clock, ScansLostForLongerThanALeapAreNotAhead) {
   Mapper mapper{config};
   processAll(mapper, 5);
   for (int i = 1; i < 8; ++i) {
-    EXPECT_EQ(ScanStatus::kLost, mapper.process(randomScan(scans()[4].stamp + 0.5 * i)).status);
+    EXPECT_EQ(ScanStatus::kLost,
+              mapper.process(randomScan(buildingScans()[4].stamp + 0.5 * i)).status);
   }
 }
 
 TEST(Clock, SweepsAtTheSameTimeAreStale) {
-  VoxelScan too_soon = shifted(20, scans()[19].stamp - scans()[20].stamp + 1e-5);
+  VoxelScan too_soon = shifted(20, buildingScans()[19].stamp - buildingScans()[20].stamp + 1e-5);
   VoxelScan at_once = too_soon;  // its middle is that of the scan before
   for (ScanVoxel& voxel : at_once.voxels) voxel.time_offset -= 1e-5F;
   VoxelScan before_it = too_soon;
@@ -346,8 +336,8 @@ TEST(Clock, SweepsAtTheSameTimeAreStale) {
     Mapper mapper = mapperAfter(20);
     Mapper other = mapperAfter(20);
     EXPECT_EQ(ScanStatus::kStale, mapper.process(scan).status);
-    EXPECT_TRUE(sameBits(other.process(scans()[20]).T_map_sensor,
-                         mapper.process(scans()[20]).T_map_sensor));
+    EXPECT_TRUE(sameBits(other.process(buildingScans()[20]).T_map_sensor,
+                         mapper.process(buildingScans()[20]).T_map_sensor));
   }
 }
 
@@ -357,12 +347,13 @@ TEST(MapFrame, IsWhereTheFirstScanIsPut) {
   Mapper mapper{Config{}};
   ScanPrior prior;
   prior.T_map_first = T_map_first;
-  EXPECT_TRUE(sameBits(T_map_first, mapper.process(scans()[0], prior).T_map_sensor));
+  EXPECT_TRUE(sameBits(T_map_first, mapper.process(buildingScans()[0], prior).T_map_sensor));
   prior.T_map_first = Pose::Identity();  // has no meaning any more
   for (size_t i = 1; i < 10; ++i) {
-    const ScanResult result = mapper.process(scans()[i], prior);
+    const ScanResult result = mapper.process(buildingScans()[i], prior);
     ASSERT_TRUE(result.located());
-    EXPECT_LT(differenceOf(T_map_first * walk().truth[i].pose, result.T_map_sensor).metres, 0.03);
+    EXPECT_LT(differenceOf(T_map_first * buildingWalk().truth[i].pose, result.T_map_sensor).metres,
+              0.03);
   }
 }
 
@@ -370,10 +361,10 @@ TEST(Trajectory, DoesNotDependOnTheScansNumbers) {
   Mapper mapper = mapperAfter(20);
   Mapper other = mapperAfter(20);
   for (const size_t i : {24U, 25U}) {
-    VoxelScan scan = scans()[i];
+    VoxelScan scan = buildingScans()[i];
     scan.number += 1000;
-    EXPECT_TRUE(
-        sameBits(other.process(scans()[i]).T_map_sensor, mapper.process(scan).T_map_sensor));
+    EXPECT_TRUE(sameBits(other.process(buildingScans()[i]).T_map_sensor,
+                         mapper.process(scan).T_map_sensor));
   }
 }
 

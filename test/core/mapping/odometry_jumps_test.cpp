@@ -14,36 +14,28 @@
 namespace edgevox::test {
 namespace {
 
-constexpr int kFirst = 15;  // the sensor stands still for the first second
 constexpr size_t kCount = 36;
 constexpr size_t kJump = 16;  // the first scan after it
-
-const Walk& walk() {
-  static const Walk made = simulateWalk(sim::WorldName::Building, "32", kFirst, kCount);
-  return made;
-}
-
-const std::vector<VoxelScan>& scans() {
-  static const std::vector<VoxelScan> made = voxelScans(walk().sweeps, Config{});
-  return made;
-}
 
 using Odometry = std::function<Pose(size_t scan)>;
 
 /// True up to kJump, and put `jump` off from then on.
 Odometry jumping(const Pose& jump) {
-  return [=](size_t i) { return i < kJump ? walk().truth[i].pose : jump * walk().truth[i].pose; };
+  return [=](size_t i) {
+    return i < kJump ? buildingWalk().truth[i].pose : jump * buildingWalk().truth[i].pose;
+  };
 }
 
 Pose translated(double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); }
 
 VoxelScan noise(size_t i) {
-  return voxelScans({randomSweep(static_cast<uint32_t>(i), scans()[i].stamp, 20000)}, Config{})[0];
+  return voxelScans({randomSweep(static_cast<uint32_t>(i), buildingScans()[i].stamp, 20000)},
+                    Config{})[0];
 }
 
 void expectTrue(size_t i, const ScanResult& result, const Pose& T_map_first = Pose::Identity()) {
   EXPECT_TRUE(result.located()) << i;
-  const Pose expected = T_map_first * walk().truth[i].pose;
+  const Pose expected = T_map_first * buildingWalk().truth[i].pose;
   EXPECT_LT(differenceOf(expected, result.T_map_sensor).metres, 0.07) << i;
 }
 
@@ -53,7 +45,7 @@ void expectBridged(const Odometry& odometry, const std::vector<size_t>& jumps) {
   for (size_t i = 0; i < kCount; ++i) {
     ScanPrior prior;
     prior.T_odom_sensor = odometry(i);
-    const ScanResult result = mapper.process(scans()[i], prior);
+    const ScanResult result = mapper.process(buildingScans()[i], prior);
     expectTrue(i, result);
     const bool jumped = std::find(jumps.begin(), jumps.end(), i) != jumps.end();
     EXPECT_EQ(jumped, result.odometry_jumped) << i;
@@ -75,14 +67,16 @@ TEST(OdometryJumps, ThatAreSmallAreCorrectedByTheMatch) {
 TEST(OdometryJumps, OfOneScanAreTwo) {
   for (const double absurd : {1e6, 1e8, 1e12, 1e80, 1e300}) {
     expectBridged(
-        [=](size_t i) { return i == kJump ? translated(absurd, 0, 0) : walk().truth[i].pose; },
+        [=](size_t i) {
+          return i == kJump ? translated(absurd, 0, 0) : buildingWalk().truth[i].pose;
+        },
         {kJump, kJump + 1});
   }
 }
 
 TEST(OdometryJumps, APoseThatIsNotFiniteIsNotUsed) {
   const Pose bad = translated(std::nan(""), 0, 0);
-  expectBridged([=](size_t i) { return i == kJump ? bad : walk().truth[i].pose; }, {kJump});
+  expectBridged([=](size_t i) { return i == kJump ? bad : buildingWalk().truth[i].pose; }, {kJump});
 }
 
 TEST(OdometryJumps, InEveryScanLeaveTheConstantVelocity) {
@@ -93,22 +87,23 @@ TEST(OdometryJumps, InEveryScanLeaveTheConstantVelocity) {
 }
 
 TEST(OdometryJumps, AnOdometryThatStandsStillIsCorrectedByTheMatch) {
-  expectBridged([](size_t i) { return walk().truth[std::min(i, kJump)].pose; }, {});
+  expectBridged([](size_t i) { return buildingWalk().truth[std::min(i, kJump)].pose; }, {});
 }
 
 TEST(OdometryJumps, AreBridgedAmongLostScans) {
   const Odometry odometry = jumping(translated(30, -400, 2));
   constexpr size_t kLost = 14;  // the first
   constexpr size_t kFound = 30;
-  ASSERT_GT(
-      (walk().truth[kFound].pose.translation() - walk().truth[kLost].pose.translation()).norm(),
-      1.2);
+  ASSERT_GT((buildingWalk().truth[kFound].pose.translation() -
+             buildingWalk().truth[kLost].pose.translation())
+                .norm(),
+            1.2);
   Mapper mapper{Config{}};
   for (size_t i = 0; i < kCount; ++i) {
     ScanPrior prior;
     prior.T_odom_sensor = odometry(i);
     const bool lost = i >= kLost && i < kFound;
-    const ScanResult result = mapper.process(lost ? noise(i) : scans()[i], prior);
+    const ScanResult result = mapper.process(lost ? noise(i) : buildingScans()[i], prior);
     EXPECT_EQ(i == kJump, result.odometry_jumped) << i;
     if (lost) EXPECT_EQ(ScanStatus::kLost, result.status) << i;
     if (!lost) expectTrue(i, result);
@@ -122,7 +117,7 @@ TEST(OdometryJumps, AreSeenBehindScansOfAFewVoxels) {
   for (size_t i = 0; i < kCount; ++i) {
     ScanPrior prior;
     prior.T_odom_sensor = odometry(i);
-    VoxelScan scan = scans()[i];
+    VoxelScan scan = buildingScans()[i];
     const bool few = i + 4 >= kJump && i <= kJump;
     if (few) scan.voxels.resize(10);
     const ScanResult result = mapper.process(scan, prior);
@@ -145,9 +140,10 @@ TEST(OdometryJumps, GoOnFromAnArchiveToTheBit) {
     }
     ScanPrior prior;
     prior.T_odom_sensor = odometry(i);
-    const ScanResult result = mapper.process(scans()[i], prior);
+    const ScanResult result = mapper.process(buildingScans()[i], prior);
     if (i < kJump) continue;
-    EXPECT_TRUE(sameBits(result.T_map_sensor, copy.process(scans()[i], prior).T_map_sensor)) << i;
+    EXPECT_TRUE(sameBits(result.T_map_sensor, copy.process(buildingScans()[i], prior).T_map_sensor))
+        << i;
   }
 }
 
@@ -158,11 +154,11 @@ TEST(OdometryJumps, UtmCoordinatesGiveTheSamePoses) {
   for (size_t i = 0; i < kCount; ++i) {
     ScanPrior prior;
     T_utm_odom.translation().setZero();
-    prior.T_odom_sensor = prior.T_map_first = T_utm_odom * walk().truth[i].pose;
-    const ScanResult expected = near.process(scans()[i], prior);
+    prior.T_odom_sensor = prior.T_map_first = T_utm_odom * buildingWalk().truth[i].pose;
+    const ScanResult expected = near.process(buildingScans()[i], prior);
     T_utm_odom.translation() = Eigen::Vector3d(500e3, 5000e3, 500);
-    prior.T_odom_sensor = prior.T_map_first = T_utm_odom * walk().truth[i].pose;
-    const ScanResult result = far.process(scans()[i], prior);
+    prior.T_odom_sensor = prior.T_map_first = T_utm_odom * buildingWalk().truth[i].pose;
+    const ScanResult result = far.process(buildingScans()[i], prior);
     ASSERT_TRUE(expected.located() && result.located() && !result.odometry_jumped);
     EXPECT_LT(differenceOf(expected.T_map_sensor, result.T_map_sensor).metres, 1e-4) << i;
     const Pose T_map_odom = result.T_map_sensor * prior.T_odom_sensor->inverse();

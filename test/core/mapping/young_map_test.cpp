@@ -12,23 +12,12 @@
 namespace edgevox::test {
 namespace {
 
-constexpr int kFirst = 15;  // the sensor stands still for the first second
 constexpr size_t kCount = 20;
-
-const Walk& walk() {
-  static const Walk made = simulateWalk(sim::WorldName::Building, "32", kFirst, kCount);
-  return made;
-}
-
-const std::vector<VoxelScan>& scans() {
-  static const std::vector<VoxelScan> made = voxelScans(walk().sweeps, Config{});
-  return made;
-}
 
 /// As by a covered lens, at the time of scan i.
 VoxelScan noise(size_t i) {
   constexpr int kPoints = 4000;
-  const Sweep sweep = randomSweep(static_cast<uint32_t>(i), scans()[i].stamp, kPoints);
+  const Sweep sweep = randomSweep(static_cast<uint32_t>(i), buildingScans()[i].stamp, kPoints);
   return voxelScans({sweep}, Config{})[0];
 }
 
@@ -37,7 +26,7 @@ std::vector<ScanResult> mapped(Mapper& mapper, const std::string& bad, size_t fr
   std::vector<ScanResult> results;
   for (size_t i = from; i < kCount; ++i) {
     const bool is_bad = i - from < bad.size() && bad[i - from] == 'x';
-    results.push_back(mapper.process(is_bad ? noise(i) : scans()[i]));
+    results.push_back(mapper.process(is_bad ? noise(i) : buildingScans()[i]));
   }
   return results;
 }
@@ -56,7 +45,7 @@ std::string lettersOf(const std::vector<ScanResult>& results) {
 void expectMapFrom(size_t begin, const Mapper& mapper, const std::vector<ScanResult>& results) {
   Mapper expected{Config{}};
   for (size_t i = begin; i < kCount; ++i) {
-    const ScanResult result = expected.process(scans()[i]);
+    const ScanResult result = expected.process(buildingScans()[i]);
     EXPECT_TRUE(results[i].located()) << i;
     EXPECT_TRUE(sameBits(result.T_map_sensor, results[i].T_map_sensor)) << i;
   }
@@ -105,7 +94,7 @@ TEST(YoungMap, ThatTwoScansHaveConfirmedIsKept) {
 
 TEST(YoungMap, FromAFileIsKept) {
   Mapper first{Config{}};
-  first.process(scans()[0]);
+  first.process(buildingScans()[0]);
   ArchiveWriter writer;
   writer(first);
   Mapper mapper{Config{}};
@@ -122,8 +111,8 @@ TEST(YoungMap, IsBegunAnewWhereThePriorSays) {
   T_odom_walk.translation() = Eigen::Vector3d(7, -3, 1);
   for (size_t i = 0; i < kCount; ++i) {
     ScanPrior prior;
-    prior.T_odom_sensor = prior.T_map_first = T_odom_walk * walk().truth[i].pose;
-    const ScanResult result = mapper.process(i == 0 ? noise(i) : scans()[i], prior);
+    prior.T_odom_sensor = prior.T_map_first = T_odom_walk * buildingWalk().truth[i].pose;
+    const ScanResult result = mapper.process(i == 0 ? noise(i) : buildingScans()[i], prior);
     EXPECT_EQ(i == 2, result.begun_anew);
     if (i < 2) continue;
     EXPECT_LT(differenceOf(prior.T_map_first, result.T_map_sensor).metres, 0.05) << i;
@@ -132,14 +121,14 @@ TEST(YoungMap, IsBegunAnewWhereThePriorSays) {
 
 TEST(YoungMap, IsNotJudgedByScansOfAFewVoxels) {
   Mapper mapper{Config{}};
-  mapper.process(scans()[0]);
+  mapper.process(buildingScans()[0]);
   for (size_t i = 1; i < 8; ++i) {
-    VoxelScan few = scans()[i];
+    VoxelScan few = buildingScans()[i];
     few.voxels.resize(20);
     EXPECT_EQ(ScanStatus::kTooFew, mapper.process(few).status);
   }
   EXPECT_EQ(1U, mapper.map().scans());
-  EXPECT_TRUE(mapper.process(scans()[8]).located());
+  EXPECT_TRUE(mapper.process(buildingScans()[8]).located());
 }
 
 }  // namespace
