@@ -61,8 +61,7 @@ std::vector<Parameter> parametersOf(Config& c) {
        "matcher/coarsest_voxel"},
       {"map/anchors", &c.map.anchors, 0, 1000, "",
        "planar voxels in no plane, of each of three directions, that scans are aligned to in a "
-       "cube "
-       "of 16 voxels"},
+       "cube of 16 voxels"},
       {"map/label_every", &c.map.label_every, 1, 100, "",
        "scans between two labellings of the map"},
       {"map/clear_after", &c.map.clear_after, 0, 1000, "",

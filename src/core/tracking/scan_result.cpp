@@ -25,8 +25,7 @@ const char* toString(ScanStatus status) {
 
 const char* odometryJumpText() {
   return "its odometry has jumped by more than mapper/max_speed, mapper/max_turn and inertia "
-         "allow; "
-         "see to what publishes odom_frame: its poses must be continuous";
+         "allow; see to what publishes odom_frame: its poses must be continuous";
 }
 
 const char* begunAnewText() {
