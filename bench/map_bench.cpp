@@ -91,10 +91,11 @@ void refine(State& state, const std::string& name) {
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
   const auto points = static_cast<size_t>(s.config.matcher.search_points);
-  constexpr int kSteps = 11;  // of a refinement
-  const Pose found = matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
+  Matcher::Refinement refinement;
+  refinement.start = refinement.predicted.T_map_sensor =
+      matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
   for (auto _ : state)
-    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, found, kSteps, false));
+    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, refinement));
 }
 
 /// All stages, a scan.

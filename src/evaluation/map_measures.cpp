@@ -77,7 +77,7 @@ Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
   request.trusted_hit_ratio = usual;
   return [=, &map](const Pose& guess, uint64_t seed) -> CapturedPose {
     MatchRequest from_guess = request;
-    from_guess.guess = guess;
+    from_guess.guess.T_map_sensor = guess;
     from_guess.seed = seed;
     const MatchResult match = matcher.match(map, sample, from_guess);
     return {match.T_map_sensor, match.accepted()};

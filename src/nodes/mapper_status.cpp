@@ -16,6 +16,7 @@ void MapperStatus::add(const ScanReport& report) {
   ++counts_[report.status];
   if (report.odometry_jumped != 0) ++odometry_jumps_;
   if (report.begun_anew != 0) ++begun_anew_;
+  if (report.degenerate != 0) ++degenerate_;
   not_located_in_a_row_ = report.located ? 0 : not_located_in_a_row_ + 1;
   if (!report.located) return;
   const StageTimes times = timesOf(report);
@@ -63,6 +64,8 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   for (const auto& [name, count] : counts_) status.add("scans " + name, count);
   status.add("jumps of the odometry", odometry_jumps_);
   status.add("maps begun anew", begun_anew_);
+  status.add("scans degenerate", degenerate_);
+  status.add("degenerate directions", int{last_.degenerate});
   status.add("hit ratio", last_.hit_ratio);
   status.add("required hit ratio", last_.required_hit_ratio);
   status.add("blocked lines of sight", last_.blocked);

@@ -97,6 +97,10 @@ ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
   report.blocked = static_cast<float>(result.blocked);
   report.most_blocked = static_cast<float>(result.most_blocked);
   report.matches = result.matches;
+  report.degenerate = static_cast<uint8_t>(result.degeneracy.directions);
+  for (size_t i = 0; i < report.weakest.size(); ++i) {
+    report.weakest[i] = static_cast<float>(result.degeneracy.weakest[static_cast<int>(i)]);
+  }
   report.restarts = result.restarts;
   report.odometry_jumped = static_cast<uint8_t>(result.odometry_jumped);
   report.begun_anew = static_cast<uint8_t>(result.begun_anew);

@@ -65,6 +65,7 @@ void addScans(const RunRecord& run, Report& report) {
   report.add("odometry_jumps", uint64_t{run.odometry_jumps});
   report.add("clock_jumps", uint64_t{run.clock_jumps});
   report.add("begun_anew", uint64_t{run.begun_anew});
+  report.add("degenerate", uint64_t{run.degenerate});
   Report left_out;
   for (const auto& [reason, count] : run.left_out) left_out.add(reason, uint64_t{count});
   report.add("clouds_left_out", left_out);

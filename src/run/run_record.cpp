@@ -49,6 +49,7 @@ void RunRecord::add(uint64_t cloud, const PipelineResult& result, const Pose& T_
     poses.grow() = recordOf(scan.stamp, scan.T_map_sensor * T_base_sensor.inverse());
   }
   if (scan.odometry_jumped) ++odometry_jumps;
+  if (scan.degeneracy.directions > 0) ++degenerate;
   if (scan.clock_jumped) ++clock_jumps;
   points += result.points;
   dropped_points += result.dropped;

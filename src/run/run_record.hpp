@@ -45,6 +45,7 @@ struct RunRecord {
   size_t without_odometry = 0;             ///< scans, though an odometry frame is used
   size_t odometry_jumps = 0;               ///< scans whose odometry was not used
   size_t clock_jumps = 0;
+  size_t degenerate = 0;  ///< scans that the geometry around leaves open in a direction or more
   size_t begun_anew = 0;  ///< maps, as nothing fitted the one before, whose poses are dropped
   uint64_t refused = 0;   ///< online: clouds that could not be read
   uint64_t dropped = 0;   ///< online: clouds and scans dropped by full queues

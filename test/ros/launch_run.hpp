@@ -42,8 +42,8 @@ inline void expectSameRun(const std::filesystem::path& online,
   EXPECT_EQ(ours["dropped"].as<int>(-1), 0);
   for (const char* name :
        {"scans", "tracked", "fallback", "lost", "stale", "too_few_voxels", "without_odometry",
-        "odometry_jumps", "clock_jumps", "begun_anew", "edge_voxels", "occupied_voxels", "points",
-        "time_field", "point_times_ignored"}) {
+        "odometry_jumps", "clock_jumps", "begun_anew", "degenerate", "edge_voxels",
+        "occupied_voxels", "points", "time_field", "point_times_ignored"}) {
     EXPECT_EQ(ours[name].as<std::string>("none"), expected[name].as<std::string>("no such entry"))
         << name;
   }

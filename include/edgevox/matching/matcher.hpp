@@ -13,14 +13,32 @@
 namespace edgevox {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Centroids of a scan in the sensor's frame [m], in an order in which every prefix is spread
 /// over the scan: the search uses the first few of them, the refinement the first that have a
 /// voxel of the map beside them.
 using ScanSample = std::vector<Eigen::Vector3d>;
 
+/// Where a scan should be, and how surely.
+struct Prediction {
+  Pose T_map_sensor = Pose::Identity();
+  /// On (translation, rotation vector about the sensor), in the map's axes; zero: not known. In
+  /// units of MatchResult::information, which takes the points as independent.
+  Matrix6 information = Matrix6::Zero();
+  /// By an odometry, which decides what the geometry leaves open, and nothing else. A velocity is
+  /// less sure: its error would go on for good. It is weighed against what the match says.
+  bool measured = false;
+
+  static Prediction withCovariance(const Pose& T_map_sensor, const Matrix6& covariance,
+                                   bool measured);
+
+  /// Standard deviation of the translation in the least known direction [m].
+  double sigma() const;
+};
+
 struct MatchRequest {
-  Pose guess = Pose::Identity();  ///< T_map_sensor
+  Prediction guess;
   double required_hit_ratio = 0;  ///< restarts are tried until a match reaches it
   double far_hit_ratio = 1.0;     ///< the same for a match farther than the next two
   double far_translation = 2.0;   ///< from the guess [m]
@@ -45,6 +63,15 @@ enum class Refusal {
   kBlocked,    ///< too many lines of sight would pass through walls
 };
 
+/// What the geometry around leaves open, as the way along a bare corridor.
+struct Degeneracy {
+  int directions = 0;  ///< in which the match says next to nothing
+  /// The direction that the match says least of: a unit vector of (translation, rotation vector
+  /// times the median range of the scan), in the map's axes ...
+  Vector6 weakest = Vector6::Zero();
+  double share = 1.0;  ///< ... and the mean square of the part of it across what is matched
+};
+
 struct MatchResult {
   Pose T_map_sensor = Pose::Identity();
   double hit_ratio = 0.0;           ///< see Matcher::hitRatio
@@ -57,8 +84,11 @@ struct MatchResult {
   int restarts = 0;
   uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
   /// Information of the last step, on (translation, rotation vector about the sensor), in the map's
-  /// axes.
+  /// axes; none in degenerate directions.
   Matrix6 information = Matrix6::Zero();
+  /// The same as a covariance, with what a prediction adds; finite [m, rad].
+  Matrix6 covariance = Matrix6::Zero();
+  Degeneracy degeneracy;
 
   bool accepted() const { return refusal == Refusal::kNone; }
 };
@@ -88,10 +118,17 @@ class Matcher {
     uint64_t look_ups = 0;
     return search(map, sample, points, guess, look_ups);
   }
-  /// The refinement alone, `steps` at most. Whether it is accepted is not asked. It ends where the
-  /// pose leaves the grid's range.
-  MatchResult refine(const MatchMap& map, const ScanSample& sample, const Pose& guess, int steps,
-                     bool all_voxels) const;
+  struct Refinement {
+    Pose start = Pose::Identity();
+    Prediction predicted;
+    double widening = 1.0;    ///< of the robust kernel's square at first; it narrows to 1
+    int steps = 15;           ///< at most
+    bool all_voxels = false;  ///< match all surfaces, not only the selected ones
+  };
+  /// The refinement alone. Whether it is accepted is not asked. It ends where the pose leaves the
+  /// grid's range.
+  MatchResult refine(const MatchMap& map, const ScanSample& sample,
+                     const Refinement& refinement) const;
   /// The fraction in occupied voxels of level 1 of those of the first `points` of a sample that are
   /// in occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If
   /// these are less than a quarter of `points`, it is the fraction of that quarter.
@@ -101,6 +138,8 @@ class Matcher {
  private:
   Pose search(const MatchMap& map, const ScanSample& sample, size_t points, const Pose& guess,
               uint64_t& look_ups) const;
+  MatchResult refineFrom(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
+                         const Pose& start, double widening) const;
   MatchResult verified(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                        MatchResult result) const;
   void restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,

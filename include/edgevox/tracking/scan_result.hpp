@@ -29,6 +29,7 @@ struct ScanResult {
   Pose T_map_sensor = Pose::Identity();  ///< at the stamp; the last good one if not located()
   /// Covariance of (translation, rotation vector about the sensor), in the map's axes; m, rad.
   Matrix6 covariance = Matrix6::Zero();
+  Degeneracy degeneracy;  ///< what of the pose is only predicted
   double hit_ratio = 0.0;
   double required_hit_ratio = 0.0;
   double blocked = 0.0;              ///< share of lines of sight that would pass through walls

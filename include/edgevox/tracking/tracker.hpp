@@ -62,7 +62,7 @@ class Tracker {
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
     bytes(self.clock_watch_, self.odometry_watch_, self.motion_, self.acceptance_,
-          self.lost_in_a_row_);
+          self.covariance_, self.lost_in_a_row_);
   }
 
  private:
@@ -75,7 +75,9 @@ class Tracker {
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
   double fastestChange() const;
-  MatchRequest requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const;
+  Prediction predict(double time) const;
+  MatchRequest requestFor(const SweepPose& now, const Prediction& predicted,
+                          uint32_t version) const;
 
   Config config_;
   ClockWatch clock_watch_;  // of the located scans
@@ -83,6 +85,7 @@ class Tracker {
   Matcher matcher_;
   MotionModel motion_;
   Acceptance acceptance_;
+  Matrix6 covariance_ = Matrix6::Zero();  // of the last located pose
   uint64_t lost_in_a_row_ = 0;
 };
 

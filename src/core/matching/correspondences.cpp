@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/matching/correspondences.hpp"
 
+#include <algorithm>
+
+#include "edgevox/map/surface.hpp"
+
 namespace edgevox {
 namespace {
 
-constexpr double kRobustScale = 9.0;  // squared Mahalanobis distance
+constexpr double kRobustScale = 9.0;         // squared Mahalanobis distance
+constexpr double kFullInformation = 2500.0;  // of a surface across which a point is known [1/m^2]
 
-double robustWeight(double squared_distance) {
-  const double weight = kRobustScale / (kRobustScale + squared_distance);
+double robustWeight(double scale, double squared_distance) {
+  const double weight = scale / (scale + squared_distance);
   return weight * weight;
 }
 
@@ -80,8 +85,9 @@ void Correspondences::find(const Pose& T_map_sensor) {
   }
 }
 
-NormalEquations Correspondences::linearise(const Pose& T_map_sensor) {
+NormalEquations Correspondences::linearise(const Pose& T_map_sensor, double widening) {
   const SurfaceLevel& surfaces = map_.surfaces();
+  const double scale = kRobustScale * widening;
   NormalEquations equations;
   look_ups_ += near_.size();
   for (NearPoint& near : near_) {
@@ -92,7 +98,7 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor) {
     if (surfaces.voxelOf(point_f) != near.around.voxel) lookUp(point_f, to_sensor, near);
     if (const PlaneInMap& plane = near.plane; plane.known()) {
       const double e = plane.normal.dot(point) - plane.offset;
-      const double weight = robustWeight(e * e * plane.information);
+      const double weight = robustWeight(scale, e * e * plane.information);
       equations.weight += weight;
       equations.add(plane.normal, weight * plane.information, e, lever);
       continue;
@@ -100,15 +106,33 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor) {
     float distance = 0;
     const Surface* g = surfaces.nearest(near.around, point_f, to_sensor, distance);
     if (g == nullptr) continue;
-    const double weight = robustWeight(static_cast<double>(distance));
-    const auto& m = g->information;
-    Eigen::Matrix3d w;
-    w << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
+    const double weight = robustWeight(scale, static_cast<double>(distance));
     equations.weight += weight;
-    equations.add(w * weight, point - g->mean.cast<double>(), lever);
+    equations.add(symmetric(g->information) * weight, point - g->mean.cast<double>(), lever);
   }
   equations.finish();
   return equations;
+}
+
+/// Of a surface of level 1 the share of what a well known one says counts.
+Matrix6 Correspondences::geometry(const Pose& T_map_sensor, double range) const {
+  NormalEquations sum;
+  for (const NearPoint& near : near_) {
+    const Eigen::Vector3d lever = T_map_sensor.linear() * near.point;
+    const Eigen::Vector3d scaled = lever / std::max(range, lever.norm());
+    if (near.plane.known()) {
+      sum.add(near.plane.normal, 1.0, 0.0, scaled);
+      continue;
+    }
+    float distance = 0;
+    const Surface* g =
+        map_.surfaces().nearest(near.around, (T_map_sensor.translation() + lever).cast<float>(),
+                                -lever.normalized().cast<float>(), distance);
+    if (g == nullptr) continue;
+    sum.add(symmetric(g->information) / kFullInformation, Eigen::Vector3d::Zero(), scaled);
+  }
+  sum.finish();
+  return sum.h / std::max(1, sum.matches);
 }
 
 }  // namespace edgevox

@@ -17,7 +17,7 @@ namespace edgevox {
 /// about the sensor).
 struct NormalEquations {
   Matrix6 h = Matrix6::Zero();
-  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
+  Vector6 b = Vector6::Zero();
   int matches = 0;
   double weight = 0.0;  // sum of the robust weights
 
@@ -50,8 +50,13 @@ class Correspondences {
 
   /// Chooses the points anew, as the sample lies at `T_map_sensor`.
   void find(const Pose& T_map_sensor);
-  /// Points that have moved to another voxel are given what is there.
-  NormalEquations linearise(const Pose& T_map_sensor);
+  /// The robust kernel is `widening` times as wide, squared. Points that have moved to another
+  /// voxel are given what is there.
+  NormalEquations linearise(const Pose& T_map_sensor, double widening);
+  /// How well the directions of the pose are constrained, whatever the precision of the map: the
+  /// mean of J^T N J over the points, where N is the square of the unit normal of what is matched,
+  /// on (translation, rotation vector times `range` [m]).
+  Matrix6 geometry(const Pose& T_map_sensor, double range) const;
 
   uint64_t lookUps() const { return look_ups_; }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -27,13 +28,18 @@ constexpr double kNearStep = 0.25;           // after which other points may be 
 constexpr double kLeastKnown = 0.25;         // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
-constexpr int kRefineSteps = 11;             // at most
-constexpr double kLargestMove = 10.0;        // of one step [m, rad]
-constexpr double kConvergedDistance = 5e-4;  // [m]
-constexpr double kConvergedAngle = 5e-5;     // [rad]
+constexpr double kWidest = 16.0;        // of the squared kernel of a refinement
+constexpr double kNarrowing = 0.25;     // of that, each step
+constexpr double kSharpSigma = 0.02;    // of a prediction that needs no wider kernel [m]
+constexpr double kDegenerate = 0.0015;  // mean square across what is matched, at most
+constexpr double kInflation = 6.0;      // the inverse information underestimates the scatter
+constexpr double kLeastInformation = kInflation / (1.0 * 1.0);  // of a pose: 1 m, 1 rad
+constexpr double kLargestMove = 10.0;                           // of one step [m, rad]
+constexpr double kConvergedDistance = 5e-4;                     // [m]
+constexpr double kConvergedAngle = 5e-5;                        // [rad]
 
-/// A move of the discrete search: translation in the map's axes, rotation about the sensor.
-using Move = Eigen::Matrix<double, 6, 1>;
+/// Translation in the map's axes, rotation about the sensor.
+using Move = Vector6;
 
 Pose apply(const Pose& pose, const Move& move) {
   Pose out = pose;
@@ -120,6 +126,61 @@ double largestStep(const Pose& from, const Pose& to, double range) {
   return std::max(change.translation().norm(), rotationAngle(change) * range);
 }
 
+Move difference(const Pose& to, const Pose& from) {
+  Move move;
+  move << to.translation() - from.translation(),
+      rotationVector(to.linear() * from.linear().transpose());
+  return move;
+}
+
+/// The directions that the geometry around leaves open, where a rotation is as long as the way of a
+/// point at `range`.
+class OpenDirections {
+ public:
+  OpenDirections(const Matrix6& geometry, double range) : metres_(Vector6::Ones()) {
+    metres_.tail<3>().setConstant(1.0 / range);
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(geometry);
+    degeneracy_.weakest = solver.eigenvectors().col(0);
+    degeneracy_.share = solver.eigenvalues()[0];
+    for (int i = 0; i < 6 && !(solver.eigenvalues()[i] > kDegenerate); ++i) {
+      const Vector6 v = solver.eigenvectors().col(i);
+      closed_ -= v * v.transpose();
+      ++degeneracy_.directions;
+    }
+  }
+
+  const Degeneracy& degeneracy() const { return degeneracy_; }
+
+  /// The equations without what they say of the open directions.
+  NormalEquations without(const NormalEquations& equations) const {
+    if (degeneracy_.directions == 0) return equations;
+    const Matrix6 kept = inUnits(closed_);
+    NormalEquations rest = equations;
+    rest.h = kept * equations.h * kept.transpose();
+    rest.b = kept * equations.b;
+    return rest;
+  }
+  /// What an information says of the open directions.
+  Matrix6 within(const Matrix6& information) const {
+    const Matrix6 kept = inUnits(Matrix6::Identity() - closed_);
+    return kept * information * kept.transpose();
+  }
+
+ private:
+  Matrix6 inUnits(const Matrix6& projection) const {
+    return metres_.cwiseInverse().asDiagonal() * projection * metres_.asDiagonal();
+  }
+
+  Vector6 metres_;  // of the unit of each component
+  Matrix6 closed_ = Matrix6::Identity();
+  Degeneracy degeneracy_;
+};
+
+Matrix6 covarianceOf(const Matrix6& information) {
+  const Matrix6 covariance = kInflation * information.ldlt().solve(Matrix6::Identity());
+  return 0.5 * (covariance + covariance.transpose());
+}
+
 /// Uniform in [-1, 1), the same on every machine.
 double signedUniform(uint64_t& state) {
   state += 0x9e3779b97f4a7c15ULL;
@@ -135,6 +196,17 @@ Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
 }
 
 }  // namespace
+
+Prediction Prediction::withCovariance(const Pose& T_map_sensor, const Matrix6& covariance,
+                                      bool measured) {
+  return {T_map_sensor, kInflation * covariance.ldlt().solve(Matrix6::Identity()), measured};
+}
+
+double Prediction::sigma() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information.topLeftCorner<3, 3>(),
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(kInflation / std::max(solver.eigenvalues()[0], kLeastInformation));
+}
 
 double medianRange(const ScanSample& sample, size_t count) {
   std::vector<double> ranges(count);
@@ -153,7 +225,7 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
 MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
-  if (result.accepted() || !isInGridRange(map, sample, request.guess)) return result;
+  if (result.accepted() || !isInGridRange(map, sample, request.guess.T_map_sensor)) return result;
   restart(map, sample, request, result);
   return result;
 }
@@ -161,37 +233,47 @@ MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
 /// The refinement alone where the guess was good, else the better fit of that and the search.
 MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
+  const Pose& guess = request.guess.T_map_sensor;
   MatchResult result;
-  result.T_map_sensor = request.guess;
-  if (!isInGridRange(map, sample, request.guess)) return result;
+  result.T_map_sensor = guess;
+  if (!isInGridRange(map, sample, guess)) return result;
   if (config_.mode == MatcherMode::kPublished) {
-    result.T_map_sensor = climbAsPublished(map, sample, request.guess);
+    result.T_map_sensor = climbAsPublished(map, sample, guess);
     return verified(map, sample, request, result);
   }
-  const auto refineFrom = [&](const Pose& start) {
-    return verified(map, sample, request,
-                    refine(map, sample, start, kRefineSteps, request.all_voxels));
-  };
-  result = refineFrom(request.guess);
+  const double unsure = request.guess.sigma() / kSharpSigma;
+  result = refineFrom(map, sample, request, guess, std::clamp(unsure * unsure, 1.0, kWidest));
   const double step =
-      largestStep(request.guess, result.T_map_sensor, medianRange(sample, refinePoints(sample)));
+      largestStep(guess, result.T_map_sensor, medianRange(sample, refinePoints(sample)));
   if (result.accepted() && result.hit_ratio >= request.trusted_hit_ratio &&
       step < kTrustedStep * map.voxelSize(1)) {
     return result;
   }
   const auto points = static_cast<size_t>(config_.search_points);
   uint64_t look_ups = result.look_ups;
-  MatchResult searched = refineFrom(search(map, sample, points, request.guess, look_ups));
+  const Pose found = search(map, sample, points, guess, look_ups);
+  MatchResult searched = refineFrom(map, sample, request, found, kWidest);
   result.look_ups = searched.look_ups += look_ups;
   if (!searched.accepted() && result.accepted()) return result;
   if (searched.accepted() && !result.accepted()) return searched;
   return searched.fit > result.fit ? searched : result;
 }
 
+MatchResult Matcher::refineFrom(const MatchMap& map, const ScanSample& sample,
+                                const MatchRequest& request, const Pose& start,
+                                double widening) const {
+  Refinement refinement;
+  refinement.start = start;
+  refinement.predicted = request.guess;
+  refinement.widening = widening;
+  refinement.all_voxels = request.all_voxels;
+  return verified(map, sample, request, refine(map, sample, refinement));
+}
+
 MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
                               const MatchRequest& request, MatchResult result) const {
   if (!inGridRange(result.T_map_sensor, map.voxelSize(0))) return result;
-  const Pose moved = request.guess.inverse() * result.T_map_sensor;
+  const Pose moved = request.guess.T_map_sensor.inverse() * result.T_map_sensor;
   const double distance = moved.translation().norm();
   const double angle = rotationAngle(moved);
   const bool far = distance > request.far_translation || angle > request.far_rotation;
@@ -223,14 +305,12 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
   int best_score = coarseScore(best.T_map_sensor);
   for (int i = 1; i <= config_.max_restarts && !best.accepted() && look_ups < kMostLookUps; ++i) {
     const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
-    const Pose start = disturbed(request.guess, request.reach * growth, state);
+    const Pose start = disturbed(request.guess.T_map_sensor, request.reach * growth, state);
     const Pose found = search(map, sample, points, start, look_ups);
     best.restarts = i;
     if (coarseScore(found) <= best_score) continue;
-    MatchResult candidate =
-        verified(map, sample, request,
-                 refine(map, sample, search(map, sample, all_points, found, look_ups), kRefineSteps,
-                        request.all_voxels));
+    const Pose finer = search(map, sample, all_points, found, look_ups);
+    MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
     look_ups += candidate.look_ups;
     candidate.restarts = i;
     if (!candidate.accepted() && candidate.hit_ratio <= best.hit_ratio) continue;
@@ -260,34 +340,48 @@ Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t point
   return pose;
 }
 
-MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample, const Pose& guess,
-                            int steps, bool all_voxels) const {
+MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
+                            const Refinement& refinement) const {
   MatchResult result;
   Pose& pose = result.T_map_sensor;
-  pose = guess;
+  pose = refinement.start;
   const size_t wanted = refinePoints(sample);
   if (wanted == 0) return result;
   const double range = medianRange(sample, wanted);
-  Correspondences near(map, sample, wanted, all_voxels);
+  const Prediction& predicted = refinement.predicted;
+  Correspondences near(map, sample, wanted, refinement.all_voxels);
+  std::optional<OpenDirections> open;
   Pose near_pose;
-  for (int step = 0; step < steps; ++step) {
-    if (step == 0 || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
+  double widening = refinement.widening;
+  for (int step = 0; step < refinement.steps; ++step) {
+    if (!open || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
       near.find(pose);
       near_pose = pose;
+      open.emplace(near.geometry(pose, range), range);
     }
-    const NormalEquations equations = near.linearise(pose);
+    const NormalEquations all = near.linearise(pose, widening);
+    const NormalEquations closed = open->without(all);
+    const NormalEquations& equations = predicted.measured ? closed : all;
+    const Matrix6 prior =
+        (predicted.measured ? open->within(predicted.information) : predicted.information) +
+        kLeastInformation * Matrix6::Identity();
     result.look_ups = near.lookUps();
-    result.matches = equations.matches;
-    result.information = equations.h;
-    result.fit = equations.weight / static_cast<double>(wanted);
-    if (equations.matches < 6) break;
-    const Move move = -equations.h.ldlt().solve(equations.b);
-    if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // singular, or NaN
+    result.matches = all.matches;
+    result.information = closed.h;
+    result.covariance = covarianceOf(closed.h + prior);
+    result.degeneracy = open->degeneracy();
+    result.fit = all.weight / static_cast<double>(wanted);
+    if (all.matches < 6) break;
+    const Move off = difference(pose, predicted.T_map_sensor);
+    const Move move = -(equations.h + prior).ldlt().solve(equations.b + prior * off);
+    if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // NaN
     pose = apply(pose, move);
     if (!inGridRange(pose, map.voxelSize(0))) return result;
-    if (move.head<3>().norm() < kConvergedDistance && move.tail<3>().norm() < kConvergedAngle) {
+    if (widening <= 1.0 && move.head<3>().norm() < kConvergedDistance &&
+        move.tail<3>().norm() < kConvergedAngle) {
       break;
     }
+    widening = std::max(1.0, widening * kNarrowing);
   }
   renormalise(pose);
   return result;

@@ -4,22 +4,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "core/scan/scan_sample.hpp"
 
 namespace edgevox {
 namespace {
 
 constexpr size_t kFewestVoxels = 50;
-constexpr double kVarianceInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLongestReach = 4.0;
 constexpr double kMaxTranslation = 2.0;    // a match from its prediction [m]
 constexpr double kFastestChange = 10.0;    // the same, of the time passed, of a known motion [m/s]
 constexpr double kRadians = M_PI / 180.0;  // in a degree
 constexpr double kMaxRotation = 60.0 * kRadians;  // [rad]
-constexpr int kStepsDeskewed = 3;  // of the refinement, after the motion in the sweep is known
-constexpr double kLeastInterval = 1e-3;  // of two sweeps' middles [s]
+constexpr int kStepsDeskewed = 11;  // of the refinement, after the motion in the sweep is known
+struct Sigma {
+  double translation;  // [m]
+  double rotation;     // [rad]
+};
+constexpr Sigma kVelocitySigma{0.01, 0.003};   // of a predicted pose, at constant velocity
+constexpr double kAcceleration = 2.0;          // standard deviation [m/s^2]
+constexpr double kTurnAcceleration = 2.0;      // [rad/s^2]
+constexpr Sigma kOdometrySigma{0.005, 0.003};  // of a pose predicted by an odometry
+constexpr double kOdometryDrift = 0.03;        // of the way, and of the angle
+constexpr double kLeastInterval = 1e-3;        // of two sweeps' middles [s]
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
                     const Deskew& deskew) {
@@ -28,8 +34,23 @@ ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
   return sample;
 }
 
-Matrix6 covarianceOf(const Matrix6& information) {
-  return kVarianceInflation * information.inverse();
+Matrix6 diagonal(double translation_sigma, double rotation_sigma) {
+  Vector6 sigma;
+  sigma << Eigen::Vector3d::Constant(translation_sigma), Eigen::Vector3d::Constant(rotation_sigma);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+/// Of a pose at constant velocity.
+Matrix6 covarianceAfter(double seconds) {
+  const double half_square = 0.5 * seconds * seconds;
+  return diagonal(kVelocitySigma.translation + kAcceleration * half_square,
+                  kVelocitySigma.rotation + kTurnAcceleration * half_square);
+}
+
+/// Of a pose by the odometry's step.
+Matrix6 covarianceOfStep(const Pose& step) {
+  return diagonal(kOdometrySigma.translation + kOdometryDrift * step.translation().norm(),
+                  kOdometrySigma.rotation + kOdometryDrift * rotationAngle(step));
 }
 
 }  // namespace
@@ -74,6 +95,7 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
   if (!result.located()) return result;
   clock_watch_.accept(scan.stamp);
   motion_.add(now, scan.stamp);
+  covariance_ = result.covariance;
   odometry_watch_.located(motion_.velocity());
   result.T_map_sensor = T_map_sensor();
   return result;
@@ -105,27 +127,45 @@ Pose Tracker::firstPose(const ScanPrior& prior) const {
 void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const TrackedMap& tracked,
                     SweepPose& now, ScanResult& result) {
   const auto positions = sampleVoxels(scan, matcher_.sampleSize());
-  const auto since_last = odometry_watch_.sinceLocated();
-  const Pose guess = motion_.predict(now.time, since_last, lost_in_a_row_ <= 1);
-  Twist twist = motion_.predictTwist({now.time, guess}, since_last.has_value());
+  const Prediction predicted = predict(now.time);
+  Twist twist = motion_.predictTwist({now.time, predicted.T_map_sensor},
+                                     odometry_watch_.sinceLocated().has_value());
   const MatchResult found = locate(deskewed(scan, positions, {sweep, twist}),
-                                   requestFor(now, guess, tracked.version), tracked, result);
+                                   requestFor(now, predicted, tracked.version), tracked, result);
   if (!found.accepted()) return;
   now.T_map_sensor = found.T_map_sensor;
   if (sweep.instant() || config_.matcher.mode == MatcherMode::kPublished) return;
   if (motion_.known()) twist = motion_.twistInSweepAt(now);
+  Matcher::Refinement refinement;
+  refinement.start = now.T_map_sensor;
+  refinement.predicted = predicted;
+  refinement.steps = kStepsDeskewed;
+  refinement.all_voxels = result.status == ScanStatus::kFallback;
   const auto refined =
-      matcher_.refine(tracked.map, deskewed(scan, positions, {sweep, twist}), now.T_map_sensor,
-                      kStepsDeskewed, result.status == ScanStatus::kFallback);
+      matcher_.refine(tracked.map, deskewed(scan, positions, {sweep, twist}), refinement);
   if (!inGridRange(refined.T_map_sensor, config_.voxel_size)) return;  // it ran away
   now.T_map_sensor = refined.T_map_sensor;
-  result.covariance = covarianceOf(refined.information);
+  result.covariance = refined.covariance;
+  result.degeneracy = refined.degeneracy;
 }
 
-MatchRequest Tracker::requestFor(const SweepPose& now, const Pose& guess, uint32_t version) const {
+/// Sure as the last pose and what has come since. Of a sensor whose motion is not known nothing is
+/// predicted: it is looked for where it was.
+Prediction Tracker::predict(double time) const {
+  const auto step = odometry_watch_.sinceLocated();
+  const bool moving = lost_in_a_row_ <= 1;
+  const Pose pose = motion_.predict(time, step, moving);
+  if (step) return Prediction::withCovariance(pose, covariance_ + covarianceOfStep(*step), true);
+  if (!moving || !motion_.velocity()) return {pose, Matrix6::Zero(), false};
+  const double seconds = time - motion_.last().time;
+  return Prediction::withCovariance(pose, covariance_ + covarianceAfter(seconds), false);
+}
+
+MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predicted,
+                                 uint32_t version) const {
   const double since_last = motion_.known() ? now.time - motion_.last().time : 0.0;
   MatchRequest request;
-  request.guess = guess;
+  request.guess = predicted;
   acceptance_.setLimits(lost_in_a_row_ > 0, request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.max_translation = kMaxTranslation + fastestChange() * since_last;
@@ -160,7 +200,8 @@ MatchResult Tracker::locate(const ScanSample& sample, const MatchRequest& reques
     acceptance_.addHitRatio(match.hit_ratio);
     acceptance_.addBlocked(match.blocked);
     if (!published) acceptance_.addSigma(sigma);
-    if (!published) result.covariance = covarianceOf(match.information);
+    result.covariance = match.covariance;
+    result.degeneracy = match.degeneracy;
   } else {
     result.status = ScanStatus::kLost;
   }
@@ -187,12 +228,14 @@ std::vector<Eigen::Vector3d> Tracker::placed(const VoxelScan& scan) const {
 void Tracker::setPose(const Pose& T_map_sensor) {
   odometry_watch_.forget();
   motion_.set(T_map_sensor);
+  covariance_.setZero();
 }
 
 void Tracker::forgetMotion() {
   clock_watch_.reset();
   odometry_watch_.forget();
   motion_.forget();
+  covariance_.setZero();
 }
 
 void Tracker::reset() { *this = Tracker(config_); }

@@ -36,7 +36,7 @@ VoxelScan noise(size_t i) {
 void expectTrue(size_t i, const ScanResult& result, const Pose& T_map_first = Pose::Identity()) {
   EXPECT_TRUE(result.located()) << i;
   const Pose expected = T_map_first * buildingWalk().truth[i].pose;
-  EXPECT_LT(differenceOf(expected, result.T_map_sensor).metres, 0.07) << i;
+  EXPECT_LT(differenceOf(expected, result.T_map_sensor).metres, 0.05) << i;
 }
 
 /// All scans are located where they were taken, the scans `jumps` without their odometry.

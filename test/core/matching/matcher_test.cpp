@@ -25,7 +25,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kSteps = 11;  // of a refinement
 
 Pose poseOf(const Vector3d& position, double yaw) {
   Pose pose(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
@@ -128,7 +127,9 @@ constexpr PoseDifference kNear{0.03, 0.3};
 
 Pose refined(const Pose& guess) {
   const MappedRoom& room = mappedRoom();
-  return room.matcher().refine(room.map, room.sample, guess, kSteps, false).T_map_sensor;
+  Matcher::Refinement refinement;
+  refinement.start = refinement.predicted.T_map_sensor = guess;
+  return room.matcher().refine(room.map, room.sample, refinement).T_map_sensor;
 }
 
 Pose searchedAndRefined(const Pose& guess) {
@@ -169,7 +170,7 @@ TEST(PublishedMode, ComesWithinAVoxel) {
   int near = 0;
   for (int i = 0; i < 40; ++i) {
     MatchRequest request;
-    request.guess = displaced(room.truth, 0.3, 5.0, random);
+    request.guess.T_map_sensor = displaced(room.truth, 0.3, 5.0, random);
     const Pose found = Matcher(config).align(room.map, room.sample, request).T_map_sensor;
     const PoseDifference error = differenceOf(room.truth, found);
     near += error.metres < room.map.voxelSize(1) && error.degrees < 5.0 ? 1 : 0;
@@ -228,7 +229,7 @@ TEST(Restarts, FindAPoseFarFromTheGuess) {
   int with_restarts = 0;
   for (int i = 0; i < 12; ++i) {
     MatchRequest request;
-    request.guess = displaced(room.truth, 1.8, 10.0, random);
+    request.guess.T_map_sensor = displaced(room.truth, 1.8, 10.0, random);
     request.required_hit_ratio = 0.75;
     request.all_voxels = true;
     request.seed = static_cast<uint64_t>(i);
@@ -254,7 +255,7 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
     const auto sweep = castSweep(
         building, roomSensor(), [&](double) { return path.poseAt(time); }, 0.0, 1);
     MatchRequest request;
-    request.guess = room.truth;
+    request.guess.T_map_sensor = room.truth;
     const double usual = Matcher::hitRatio(room.map, room.sample, room.sample.size(), room.truth);
     request.required_hit_ratio = 0.75 * usual;
     request.far_hit_ratio = 0.95 * usual;
@@ -271,8 +272,8 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
 TEST(Match, TooFarFromTheGuessIsNotAccepted) {
   const MappedRoom& room = mappedRoom();
   MatchRequest request;
-  request.guess = room.truth;
-  request.guess.translation().x() += 0.6;
+  request.guess.T_map_sensor = room.truth;
+  request.guess.T_map_sensor.translation().x() += 0.6;
   request.required_hit_ratio = 0.8;
   MatcherConfig config;
   config.max_restarts = 0;
@@ -321,8 +322,8 @@ TEST(FreeSpace, MatchesThatSeeThroughWallsAreNotAccepted) {
   config.max_restarts = 0;
   config.search_points = config.refine_points = 1;  // the pose stays wrong
   MatchRequest request;
-  request.guess = room.truth;
-  request.guess.translation().x() += 1.5;
+  request.guess.T_map_sensor = room.truth;
+  request.guess.T_map_sensor.translation().x() += 1.5;
   const auto matched = [&] { return Matcher(config).align(room.map, room.sample, request); };
   EXPECT_TRUE(matched().accepted());
   request.most_blocked = request.most_blocked_near = 0.1;
@@ -337,7 +338,7 @@ TEST(Match, IsTheSameEveryTime) {
   const MappedRoom again;
   Random random(13);
   MatchRequest request;
-  request.guess = displaced(room.truth, 1.8, 10.0, random);
+  request.guess.T_map_sensor = displaced(room.truth, 1.8, 10.0, random);
   request.required_hit_ratio = 0.75;
   const MatchResult a = room.matcher().match(room.map, room.sample, request);
   const MatchResult b = again.matcher().match(again.map, again.sample, request);
@@ -350,7 +351,7 @@ TEST(Match, IsTheSameEveryTime) {
 TEST(Match, OfRandomPointsHasAnEnd) {
   const MappedRoom& room = mappedRoom();
   MatchRequest request;
-  request.guess = room.truth;
+  request.guess.T_map_sensor = room.truth;
   request.required_hit_ratio = 0.99;
   request.reach = 4.0;
   request.all_voxels = true;
@@ -371,17 +372,17 @@ TEST(Match, BesideTheGridIsNone) {
     config.mode = mode;
     for (const double absurd : {2e5, 1e12, -1e80, 1e300, nan}) {
       MatchRequest request;
-      request.guess = room.truth;
-      request.guess.translation().y() = absurd;
+      request.guess.T_map_sensor = room.truth;
+      request.guess.T_map_sensor.translation().y() = absurd;
       EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted()) << absurd;
-      request.guess = room.truth;
+      request.guess.T_map_sensor = room.truth;
       ScanSample sample = room.sample;
       sample[sample.size() / 2].z() = absurd;
       EXPECT_FALSE(Matcher(config).match(room.map, sample, request).accepted()) << absurd;
     }
     MatchRequest request;
-    request.guess = room.truth;
-    request.guess.linear()(1, 2) = nan;
+    request.guess.T_map_sensor = room.truth;
+    request.guess.T_map_sensor.linear()(1, 2) = nan;
     EXPECT_FALSE(Matcher(config).match(room.map, room.sample, request).accepted());
   }
 }
@@ -397,9 +398,11 @@ TEST(Refinement, EndsWhereItLeavesTheGrid) {
   builder.prepareAll();
   ScanSample sample = wall;
   for (Vector3d& point : sample) point.x() -= limit - 5;
-  Pose guess = Pose::Identity();
-  guess.translation().x() = limit - 5.0 + 0.2;
-  const MatchResult result = room.matcher().refine(builder.matchMap(), sample, guess, kSteps, true);
+  Matcher::Refinement refinement;
+  refinement.start.translation().x() = limit - 5.0 + 0.2;
+  refinement.predicted.T_map_sensor = refinement.start;
+  refinement.all_voxels = true;
+  const MatchResult result = room.matcher().refine(builder.matchMap(), sample, refinement);
   EXPECT_GT(result.matches, 100);
   EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
 }
@@ -407,7 +410,7 @@ TEST(Refinement, EndsWhereItLeavesTheGrid) {
 TEST(Match, OfNothingIsHarmless) {
   const MappedRoom& room = mappedRoom();
   MatchRequest request;
-  request.guess = room.truth;
+  request.guess.T_map_sensor = room.truth;
   request.required_hit_ratio = 0.5;
   const MatchResult result = room.matcher().match(room.map, {{0, 0, 50}, {1, 0, 50}}, request);
   EXPECT_FALSE(result.accepted());
