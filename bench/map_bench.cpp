@@ -94,8 +94,7 @@ void refine(State& state, const std::string& name) {
   Matcher::Refinement refinement;
   refinement.start = refinement.predicted.T_map_sensor =
       matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, refinement));
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, refinement));
 }
 
 /// All stages, a scan.

@@ -33,7 +33,7 @@ class MapperStatus {
   uint64_t not_located_in_a_row_ = 0;
   uint64_t odometry_jumps_ = 0;
   uint64_t begun_anew_ = 0;
-  uint64_t degenerate_ = 0;  // scans
+  uint64_t degenerate_ = 0;                 // scans
   std::map<std::string, uint64_t> counts_;  // scans by status
   std::string transform_error_;
   std::string odometry_error_;

@@ -61,8 +61,8 @@ class Tracker {
 
   template <typename Self, typename Archive>
   static void archive(Self& self, Archive& bytes) {
-    bytes(self.clock_watch_, self.odometry_watch_, self.motion_, self.acceptance_,
-          self.covariance_, self.lost_in_a_row_);
+    bytes(self.clock_watch_, self.odometry_watch_, self.motion_, self.acceptance_, self.covariance_,
+          self.lost_in_a_row_);
   }
 
  private:
