@@ -23,6 +23,7 @@ struct Sigma {
 constexpr Sigma kVelocitySigma{0.01, 0.003};   // of a predicted pose, at constant velocity
 constexpr double kAcceleration = 2.0;          // standard deviation [m/s^2]
 constexpr double kTurnAcceleration = 2.0;      // [rad/s^2]
+constexpr double kVelocityDrift = 0.05;        // of the way, and of the angle
 constexpr Sigma kOdometrySigma{0.005, 0.003};  // of a pose predicted by an odometry
 constexpr double kOdometryDrift = 0.03;        // of the way, and of the angle
 constexpr double kLeastInterval = 1e-3;        // of two sweeps' middles [s]
@@ -40,11 +41,13 @@ Matrix6 diagonal(double translation_sigma, double rotation_sigma) {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-/// Of a pose at constant velocity.
-Matrix6 covarianceAfter(double seconds) {
+/// Of a pose by a step at constant velocity.
+Matrix6 covarianceAfter(double seconds, const Pose& step) {
   const double half_square = 0.5 * seconds * seconds;
-  return diagonal(kVelocitySigma.translation + kAcceleration * half_square,
-                  kVelocitySigma.rotation + kTurnAcceleration * half_square);
+  return diagonal(kVelocitySigma.translation + kAcceleration * half_square +
+                      kVelocityDrift * step.translation().norm(),
+                  kVelocitySigma.rotation + kTurnAcceleration * half_square +
+                      kVelocityDrift * rotationAngle(step));
 }
 
 /// Of a pose by the odometry's step.
@@ -157,8 +160,9 @@ Prediction Tracker::predict(double time) const {
   const Pose pose = motion_.predict(time, step, moving);
   if (step) return Prediction::withCovariance(pose, covariance_ + covarianceOfStep(*step), true);
   if (!moving || !motion_.velocity()) return {pose, Matrix6::Zero(), false};
-  const double seconds = time - motion_.last().time;
-  return Prediction::withCovariance(pose, covariance_ + covarianceAfter(seconds), false);
+  const SweepPose& last = motion_.last();
+  const Matrix6 since = covarianceAfter(time - last.time, last.T_map_sensor.inverse() * pose);
+  return Prediction::withCovariance(pose, covariance_ + since, false);
 }
 
 MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predicted,
