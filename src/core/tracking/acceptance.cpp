@@ -20,7 +20,7 @@ constexpr double kTimesBlocked = 2.5;  // ... so many times their running median
 }  // namespace
 
 /// Before there is a history, a match is not trusted.
-void Acceptance::setLimits(bool was_lost, MatchRequest& request) const {
+void Acceptance::setLimits(bool was_lost, bool predicted, MatchRequest& request) const {
   if (hit_ratios_.empty()) {
     request.required_hit_ratio = matcher_.min_hit_ratio;
     request.far_hit_ratio = matcher_.min_hit_ratio;
@@ -30,9 +30,10 @@ void Acceptance::setLimits(bool was_lost, MatchRequest& request) const {
   }
   const double usual = upperMedian(hit_ratios_.values());
   request.trusted_hit_ratio = kTrusted * usual;
-  request.far_hit_ratio = request.trusted_hit_ratio;
+  request.far_hit_ratio = predicted ? request.trusted_hit_ratio : usual;
   request.required_hit_ratio =
-      std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio);
+      predicted ? std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio)
+                : request.far_hit_ratio;
   request.far_translation = kFarTranslation;
   request.far_rotation = kFarRotation;
   request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
