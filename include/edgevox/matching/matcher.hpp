@@ -33,7 +33,6 @@ struct Prediction {
   static Prediction withCovariance(const Pose& T_map_sensor, const Matrix6& covariance,
                                    bool measured);
 
-  bool known() const { return information(0, 0) > 0; }
   /// Standard deviation of the translation in the least known direction [m].
   double sigma() const;
 };

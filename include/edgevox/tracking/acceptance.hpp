@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "edgevox/config.hpp"
 #include "edgevox/matching/matcher.hpp"
@@ -15,9 +16,9 @@ class Acceptance {
   Acceptance(const MatcherConfig& matcher, const MapperConfig& mapper)
       : matcher_(matcher), mapper_(mapper) {}
 
-  /// Sets what a match must reach: more after a scan that was lost, and, where the guess is not a
-  /// prediction, near it as much as far from it.
-  void setLimits(bool was_lost, bool predicted, MatchRequest& request) const;
+  /// Sets what a match must reach: more after a scan that was lost; `blind`, where the guess is no
+  /// prediction but the pose before, near it as much as far from it, and more with each lost scan.
+  void setLimits(uint64_t lost_in_a_row, bool blind, MatchRequest& request) const;
   /// Whether a match to the selected surfaces is too weak; `sigma` as of worstSigma() [m].
   bool needsFallback(const MatchResult& match, double sigma) const;
   void addHitRatio(double ratio) { hit_ratios_.push(ratio); }

@@ -9,8 +9,10 @@
 namespace edgevox {
 namespace {
 
-constexpr double kTrusted = 0.95;                     // of the running median of the hit ratios
-constexpr double kFarTranslation = 1.0;               // from the prediction [m]
+constexpr double kTrusted = 0.95;        // of the running median of the hit ratios
+constexpr double kMoreEachLost = 0.005;  // of it, with each lost scan without a guess
+constexpr size_t kFewest = 10;           // scans, until when it is not known what is usual
+constexpr double kFarTranslation = 1.0;  // from the prediction [m]
 constexpr double kFarRotation = 20.0 * M_PI / 180.0;  // [rad]
 constexpr double kMostBlockedAtFirst = 0.2;           // lines of sight, before there is a history
 constexpr double kBlocked = 0.08;                     // the same later, more than ...
@@ -20,7 +22,7 @@ constexpr double kTimesBlocked = 2.5;  // ... so many times their running median
 }  // namespace
 
 /// Before there is a history, a match is not trusted.
-void Acceptance::setLimits(bool was_lost, bool predicted, MatchRequest& request) const {
+void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, MatchRequest& request) const {
   if (hit_ratios_.empty()) {
     request.required_hit_ratio = matcher_.min_hit_ratio;
     request.far_hit_ratio = matcher_.min_hit_ratio;
@@ -30,14 +32,19 @@ void Acceptance::setLimits(bool was_lost, bool predicted, MatchRequest& request)
   }
   const double usual = upperMedian(hit_ratios_.values());
   request.trusted_hit_ratio = kTrusted * usual;
-  request.far_hit_ratio = predicted ? request.trusted_hit_ratio : usual;
+  request.far_hit_ratio = request.trusted_hit_ratio;
+  const bool strict = blind && hit_ratios_.values().size() >= kFewest;
+  if (strict) {
+    const double more = kMoreEachLost * static_cast<double>(lost_in_a_row);
+    request.far_hit_ratio = std::min(1.0, kTrusted + more) * usual;
+  }
   request.required_hit_ratio =
-      predicted ? std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio)
-                : request.far_hit_ratio;
+      strict ? request.far_hit_ratio
+             : std::max(matcher_.relative_hit_ratio * usual, matcher_.min_hit_ratio);
   request.far_translation = kFarTranslation;
   request.far_rotation = kFarRotation;
   request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
-  request.most_blocked_near = request.most_blocked + (was_lost ? 0.0 : kBlockedNear);
+  request.most_blocked_near = request.most_blocked + (lost_in_a_row > 0 ? 0.0 : kBlockedNear);
 }
 
 bool Acceptance::needsFallback(const MatchResult& match, double sigma) const {

@@ -170,7 +170,8 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predict
   const double since_last = motion_.known() ? now.time - motion_.last().time : 0.0;
   MatchRequest request;
   request.guess = predicted;
-  acceptance_.setLimits(lost_in_a_row_ > 0, predicted.known(), request);
+  const bool blind = !predicted.measured && (!motion_.known() || lost_in_a_row_ > 1);
+  acceptance_.setLimits(lost_in_a_row_, blind, request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.max_translation = kMaxTranslation + fastestChange() * since_last;
   request.max_rotation = kMaxRotation + config_.mapper.max_turn * kRadians * since_last;
