@@ -162,8 +162,8 @@ size_t MapBuilder::bytes() const {
 size_t MapBuilder::usedBytes() const {
   const size_t free_cells = match_map_.surfaces().slots().freeCount(Slots::kNear);
   return bytes() - hit_grid_.freeBytes() - hit_slots_.freeCount(Slots::kNear) * sizeof(Hit) -
-         match_map_.hitVoxels().freeBytes() - edge_candidates_.freeBytes() -
-         match_map_.freeBytes() - free_cells * MomentLevel::kCellBytes;
+         edge_candidates_.freeBytes() - match_map_.freeBytes() -
+         free_cells * MomentLevel::kCellBytes;
 }
 
 std::string fullText(const MapConfig& config) {

@@ -31,7 +31,7 @@ size_t MatchMap::bytes() const {
 }
 
 size_t MatchMap::freeBytes() const {
-  size_t bytes = surfaces_.freeBytes();
+  size_t bytes = surfaces_.freeBytes() + hit_voxels_.freeBytes();
   for (const PlaneLevel& level : planes_) bytes += level.freeBytes();
   return bytes;
 }
