@@ -15,12 +15,6 @@ namespace {
 
 using MapTool = MapToolTest;
 
-size_t planesOf(const PlaneLevel& level) {
-  size_t count = 0;
-  level.forEachVoxel([&](const VoxelIndex&, const VoxelPlanes& planes) { count += planes.count; });
-  return count;
-}
-
 TEST_F(MapTool, tellsWhatAMapHolds) {
   Config config;
   config.map.anchors = 9;
@@ -46,7 +40,7 @@ TEST_F(MapTool, tellsWhatAMapHolds) {
     }
     const bool has_planes = l >= MatchMap::kFinestPlanes && l <= MatchMap::kCoarsestPlanes;
     ASSERT_EQ(has_planes, level["planes"].IsDefined());
-    if (has_planes) EXPECT_EQ(planesOf(map.matchMap().planes(l)), level["planes"].as<size_t>());
+    if (has_planes) EXPECT_EQ(map.matchMap().planes(l).planeCount(), level["planes"].as<size_t>());
   }
   EXPECT_EQ(bytesOf(file("other")).size(), told["bytes"].as<size_t>());
   EXPECT_EQ(1U, told["parameters"].size());

@@ -76,6 +76,8 @@ class PlaneLevel {
 
   /// The number of voxels with planes.
   size_t count() const { return slots_.usedCount(Slots::kNear); }
+  /// Of all voxels, of both sides.
+  size_t planeCount() const;
   /// Calls visit(VoxelIndex, VoxelPlanes) in a fixed order.
   template <typename Visit>
   void forEachVoxel(Visit&& visit) const {

@@ -42,6 +42,12 @@ void PlaneLevel::set(const VoxelIndex& v, const VoxelPlanes& planes) {
   if (!(planes_[slot] == planes)) planes_.edit(slot) = planes;
 }
 
+size_t PlaneLevel::planeCount() const {
+  size_t planes = 0;
+  forEachVoxel([&](const VoxelIndex&, const VoxelPlanes& of_voxel) { planes += of_voxel.count; });
+  return planes;
+}
+
 void PlaneLevel::checkRead() {
   std::vector<bool> used(slots_.end());
   for (size_t block = 0; block < grid_.blockCount(); ++block) {

@@ -26,13 +26,6 @@ po::options_description describe() {
   return known;
 }
 
-/// Of all voxels, both sides.
-uint64_t planesOf(const PlaneLevel& level) {
-  uint64_t count = 0;
-  level.forEachVoxel([&](const VoxelIndex&, const VoxelPlanes& planes) { count += planes.count; });
-  return count;
-}
-
 Report levelsOf(const MatchMap& map) {
   Report levels;
   for (int l = 0; l < map.levels(); ++l) {
@@ -42,7 +35,7 @@ Report levelsOf(const MatchMap& map) {
               uint64_t{l == 0 ? map.hitVoxels().voxelCount() : map.occupied(l).voxelCount()});
     if (l == 1) level.add("surfaces", uint64_t{map.surfaces().selectedCount()});
     if (l >= MatchMap::kFinestPlanes && l <= MatchMap::kCoarsestPlanes) {
-      level.add("planes", planesOf(map.planes(l)));
+      level.add("planes", uint64_t{map.planes(l).planeCount()});
     }
     levels.add(std::to_string(l), level);
   }
