@@ -32,6 +32,20 @@ PlaneInMap planeAt(const MatchMap& map, const Eigen::Vector3f& point,
   return {};
 }
 
+/// A point of the sample at a pose.
+struct Placed {
+  Eigen::Vector3d lever;  // from the sensor, in the map's axes
+  Eigen::Vector3d in_map;
+  Eigen::Vector3f in_map_f;
+  Eigen::Vector3f to_sensor;  // unit vector
+
+  Placed(const Pose& T_map_sensor, const Eigen::Vector3d& point)
+      : lever(T_map_sensor.linear() * point),
+        in_map(T_map_sensor.translation() + lever),
+        in_map_f(in_map.cast<float>()),
+        to_sensor(-lever.normalized().cast<float>()) {}
+};
+
 }  // namespace
 
 void NormalEquations::add(const Eigen::Matrix3d& w, const Eigen::Vector3d& e,
@@ -75,13 +89,10 @@ void Correspondences::find(const Pose& T_map_sensor) {
   for (const Eigen::Vector3d& point : sample_) {
     if (near_.size() == wanted_) break;
     ++look_ups_;
-    const Eigen::Vector3d lever = T_map_sensor.linear() * point;
+    const Placed at(T_map_sensor, point);
     NearPoint near;
     near.point = point;
-    if (lookUp((T_map_sensor.translation() + lever).cast<float>(),
-               -lever.normalized().cast<float>(), near)) {
-      near_.push_back(near);
-    }
+    if (lookUp(at.in_map_f, at.to_sensor, near)) near_.push_back(near);
   }
 }
 
@@ -91,24 +102,23 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor, double wide
   NormalEquations equations;
   look_ups_ += near_.size();
   for (NearPoint& near : near_) {
-    const Eigen::Vector3d lever = T_map_sensor.linear() * near.point;
-    const Eigen::Vector3d point = T_map_sensor.translation() + lever;
-    const Eigen::Vector3f point_f = point.cast<float>();
-    const Eigen::Vector3f to_sensor = -lever.normalized().cast<float>();
-    if (surfaces.voxelOf(point_f) != near.around.voxel) lookUp(point_f, to_sensor, near);
+    const Placed at(T_map_sensor, near.point);
+    if (surfaces.voxelOf(at.in_map_f) != near.around.voxel) {
+      lookUp(at.in_map_f, at.to_sensor, near);
+    }
     if (const PlaneInMap& plane = near.plane; plane.known()) {
-      const double e = plane.normal.dot(point) - plane.offset;
+      const double e = plane.normal.dot(at.in_map) - plane.offset;
       const double weight = robustWeight(scale, e * e * plane.information);
       equations.weight += weight;
-      equations.add(plane.normal, weight * plane.information, e, lever);
+      equations.add(plane.normal, weight * plane.information, e, at.lever);
       continue;
     }
     float distance = 0;
-    const Surface* g = surfaces.nearest(near.around, point_f, to_sensor, distance);
+    const Surface* g = surfaces.nearest(near.around, at.in_map_f, at.to_sensor, distance);
     if (g == nullptr) continue;
     const double weight = robustWeight(scale, static_cast<double>(distance));
     equations.weight += weight;
-    equations.add(symmetric(g->information) * weight, point - g->mean.cast<double>(), lever);
+    equations.add(symmetric(g->information) * weight, at.in_map - g->mean.cast<double>(), at.lever);
   }
   equations.finish();
   return equations;
@@ -118,16 +128,14 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor, double wide
 Matrix6 Correspondences::geometry(const Pose& T_map_sensor, double range) const {
   NormalEquations sum;
   for (const NearPoint& near : near_) {
-    const Eigen::Vector3d lever = T_map_sensor.linear() * near.point;
-    const Eigen::Vector3d scaled = lever / std::max(range, lever.norm());
+    const Placed at(T_map_sensor, near.point);
+    const Eigen::Vector3d scaled = at.lever / std::max(range, at.lever.norm());
     if (near.plane.known()) {
       sum.add(near.plane.normal, 1.0, 0.0, scaled);
       continue;
     }
     float distance = 0;
-    const Surface* g =
-        map_.surfaces().nearest(near.around, (T_map_sensor.translation() + lever).cast<float>(),
-                                -lever.normalized().cast<float>(), distance);
+    const Surface* g = map_.surfaces().nearest(near.around, at.in_map_f, at.to_sensor, distance);
     if (g == nullptr) continue;
     sum.add(symmetric(g->information) / kFullInformation, Eigen::Vector3d::Zero(), scaled);
   }
