@@ -67,9 +67,8 @@ enum class Refusal {
 struct Degeneracy {
   int directions = 0;  ///< in which the match says next to nothing
   /// The direction that the match says least of: a unit vector of (translation, rotation vector
-  /// times the median range of the scan), in the map's axes ...
+  /// times the median range of the scan), in the map's axes.
   Vector6 weakest = Vector6::Zero();
-  double share = 1.0;  ///< ... and the mean square of the part of it across what is matched
 };
 
 struct MatchResult {

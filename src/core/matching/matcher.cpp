@@ -141,7 +141,6 @@ class OpenDirections {
     metres_.tail<3>().setConstant(1.0 / range);
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(geometry);
     degeneracy_.weakest = solver.eigenvectors().col(0);
-    degeneracy_.share = solver.eigenvalues()[0];
     for (int i = 0; i < 6 && !(solver.eigenvalues()[i] > kDegenerate); ++i) {
       const Vector6 v = solver.eigenvectors().col(i);
       closed_ -= v * v.transpose();
@@ -351,6 +350,7 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
   const Prediction& predicted = refinement.predicted;
   Correspondences near(map, sample, wanted, refinement.all_voxels);
   std::optional<OpenDirections> open;
+  Matrix6 prior = Matrix6::Zero();
   Pose near_pose;
   double widening = refinement.widening;
   for (int step = 0; step < refinement.steps; ++step) {
@@ -358,17 +358,15 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
       near.find(pose);
       near_pose = pose;
       open.emplace(near.geometry(pose, range), range);
+      prior = (predicted.measured ? open->within(predicted.information) : predicted.information) +
+              kLeastInformation * Matrix6::Identity();
     }
     const NormalEquations all = near.linearise(pose, widening);
     const NormalEquations closed = open->without(all);
     const NormalEquations& equations = predicted.measured ? closed : all;
-    const Matrix6 prior =
-        (predicted.measured ? open->within(predicted.information) : predicted.information) +
-        kLeastInformation * Matrix6::Identity();
     result.look_ups = near.lookUps();
     result.matches = all.matches;
     result.information = closed.h;
-    result.covariance = covarianceOf(closed.h + prior);
     result.degeneracy = open->degeneracy();
     result.fit = all.weight / static_cast<double>(wanted);
     if (all.matches < 6) break;
@@ -376,13 +374,14 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     const Move move = -(equations.h + prior).ldlt().solve(equations.b + prior * off);
     if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // NaN
     pose = apply(pose, move);
-    if (!inGridRange(pose, map.voxelSize(0))) return result;
+    if (!inGridRange(pose, map.voxelSize(0))) break;
     if (widening <= 1.0 && move.head<3>().norm() < kConvergedDistance &&
         move.tail<3>().norm() < kConvergedAngle) {
       break;
     }
     widening = std::max(1.0, widening * kNarrowing);
   }
+  result.covariance = covarianceOf(result.information + prior);
   renormalise(pose);
   return result;
 }
