@@ -75,6 +75,8 @@ class Tracker {
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,
                      const TrackedMap& tracked, ScanResult& result);
   double fastestChange() const;
+  /// Whether a sensor without odometry is predicted to move as before; else it is lost too long.
+  bool goesOn() const { return lost_in_a_row_ <= 1; }
   Prediction predict(double time) const;
   MatchRequest requestFor(const SweepPose& now, const Prediction& predicted,
                           uint32_t version) const;

@@ -16,17 +16,21 @@ constexpr double kFastestChange = 10.0;    // the same, of the time passed, of a
 constexpr double kRadians = M_PI / 180.0;  // in a degree
 constexpr double kMaxRotation = 60.0 * kRadians;  // [rad]
 constexpr int kStepsDeskewed = 11;  // of the refinement, after the motion in the sweep is known
+constexpr double kLeastInterval = 1e-3;  // of two sweeps' middles [s]
+
 struct Sigma {
   double translation;  // [m]
   double rotation;     // [rad]
 };
-constexpr Sigma kVelocitySigma{0.01, 0.003};   // of a predicted pose, at constant velocity
-constexpr double kAcceleration = 2.0;          // standard deviation [m/s^2]
-constexpr double kTurnAcceleration = 2.0;      // [rad/s^2]
-constexpr double kVelocityDrift = 0.05;        // of the way, and of the angle
-constexpr Sigma kOdometrySigma{0.005, 0.003};  // of a pose predicted by an odometry
-constexpr double kOdometryDrift = 0.03;        // of the way, and of the angle
-constexpr double kLeastInterval = 1e-3;        // of two sweeps' middles [s]
+
+/// Standard deviation of a step from pose to pose.
+struct StepNoise {
+  Sigma least;
+  Sigma acceleration;  // by the half of the squared time [1/s^2]
+  double drift;        // of the way, and of the angle
+};
+constexpr StepNoise kConstantVelocity{{0.01, 0.003}, {2.0, 2.0}, 0.05};
+constexpr StepNoise kOdometry{{0.005, 0.003}, {0.0, 0.0}, 0.03};
 
 ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
                     const Deskew& deskew) {
@@ -35,25 +39,16 @@ ScanSample deskewed(const VoxelScan& scan, const std::vector<size_t>& positions,
   return sample;
 }
 
-Matrix6 diagonal(double translation_sigma, double rotation_sigma) {
-  Vector6 sigma;
-  sigma << Eigen::Vector3d::Constant(translation_sigma), Eigen::Vector3d::Constant(rotation_sigma);
-  return sigma.cwiseAbs2().asDiagonal();
-}
-
-/// Of a pose by a step at constant velocity.
-Matrix6 covarianceAfter(double seconds, const Pose& step) {
+Matrix6 covarianceOf(const Pose& step, double seconds, const StepNoise& noise) {
   const double half_square = 0.5 * seconds * seconds;
-  return diagonal(kVelocitySigma.translation + kAcceleration * half_square +
-                      kVelocityDrift * step.translation().norm(),
-                  kVelocitySigma.rotation + kTurnAcceleration * half_square +
-                      kVelocityDrift * rotationAngle(step));
-}
-
-/// Of a pose by the odometry's step.
-Matrix6 covarianceOfStep(const Pose& step) {
-  return diagonal(kOdometrySigma.translation + kOdometryDrift * step.translation().norm(),
-                  kOdometrySigma.rotation + kOdometryDrift * rotationAngle(step));
+  const double translation = noise.least.translation +
+                             noise.acceleration.translation * half_square +
+                             noise.drift * step.translation().norm();
+  const double rotation = noise.least.rotation + noise.acceleration.rotation * half_square +
+                          noise.drift * rotationAngle(step);
+  Vector6 sigma;
+  sigma << Eigen::Vector3d::Constant(translation), Eigen::Vector3d::Constant(rotation);
+  return sigma.cwiseAbs2().asDiagonal();
 }
 
 }  // namespace
@@ -156,13 +151,13 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
 /// predicted: it is looked for where it was.
 Prediction Tracker::predict(double time) const {
   const auto step = odometry_watch_.sinceLocated();
-  const bool moving = lost_in_a_row_ <= 1;
-  const Pose pose = motion_.predict(time, step, moving);
-  if (step) return Prediction::withCovariance(pose, covariance_ + covarianceOfStep(*step), true);
-  if (!moving || !motion_.velocity()) return {pose, Matrix6::Zero(), false};
+  const Pose pose = motion_.predict(time, step, goesOn());
+  if (!step && !(goesOn() && motion_.velocity())) return {pose, Matrix6::Zero(), false};
   const SweepPose& last = motion_.last();
-  const Matrix6 since = covarianceAfter(time - last.time, last.T_map_sensor.inverse() * pose);
-  return Prediction::withCovariance(pose, covariance_ + since, false);
+  const Matrix6 since =
+      step ? covarianceOf(*step, 0.0, kOdometry)
+           : covarianceOf(last.T_map_sensor.inverse() * pose, time - last.time, kConstantVelocity);
+  return Prediction::withCovariance(pose, covariance_ + since, step.has_value());
 }
 
 MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predicted,
@@ -170,7 +165,7 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predict
   const double since_last = motion_.known() ? now.time - motion_.last().time : 0.0;
   MatchRequest request;
   request.guess = predicted;
-  const bool blind = !predicted.measured && (!motion_.known() || lost_in_a_row_ > 1);
+  const bool blind = !predicted.measured && (!motion_.known() || !goesOn());
   acceptance_.setLimits(lost_in_a_row_, blind, request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.max_translation = kMaxTranslation + fastestChange() * since_last;
