@@ -72,20 +72,20 @@ struct MatcherConfig {
   int restart_points = 300;
   int max_restarts = 60;
   double min_hit_ratio = 0.5;        ///< of an accepted match, before there is a history
-  double relative_hit_ratio = 0.75;  ///< of an accepted match, of the running median
+  double relative_hit_ratio = 0.65;  ///< of an accepted match, of the running median
 };
 
 /// What to do with the map when the clock has jumped back.
 enum class AfterClockJump { kKeepMap, kClearMap };
 
 struct MapperConfig {
-  double fallback_hit_ratio = 0.6;  ///< of its running median: match all voxels below it
-  double fallback_sigma = 1.6;      ///< worst deviation of the pose / its running median
-  int fallback_matches = 100;       ///< match all voxels below it
-  double max_speed = 40.0;          ///< of the sensor [m/s]
-  double max_turn = 180.0;          ///< the same [deg/s]
-  double clock_jump = 2.0;          ///< a stamp so much before the last one is no late scan [s]
-  double clock_leap = 3600.0;       ///< a stamp later by more must be confirmed by a second one [s]
+  double fallback_hit_ratio = 0.75;  ///< of its running median: match all voxels below it
+  double fallback_sigma = 1.6;       ///< worst deviation of the pose / its running median
+  int fallback_matches = 100;        ///< match all voxels below it
+  double max_speed = 40.0;           ///< of the sensor [m/s]
+  double max_turn = 180.0;           ///< the same [deg/s]
+  double clock_jump = 2.0;           ///< a stamp so much before the last one is no late scan [s]
+  double clock_leap = 3600.0;  ///< a stamp later by more must be confirmed by a second one [s]
   AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;
   int edge_window = 10;  ///< scans by whose occupancy the edges of the last one are told
 };

@@ -8,7 +8,9 @@
 #include "edgevox/io/number_text.hpp"
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "edgevox/mapping/pipeline.hpp"
+#include "edgevox/matching/free_space.hpp"
 #include "edgevox/statistics.hpp"
+#include "edgevox/tracking/acceptance.hpp"
 #include "evaluation/capture.hpp"
 #include "evaluation/placed_scan.hpp"
 #include "evaluation/share.hpp"
@@ -61,7 +63,10 @@ Trajectory referenceOf(const Recording& recording) {
   return reference;
 }
 
-/// The matcher, with restarts, verified as while mapping: by the usual hit ratio.
+constexpr double kUnsure = 1.0;        // standard deviation of a guess [m]
+constexpr size_t kLinesOfSight = 500;  // looked along at the true pose
+
+/// The matcher, with restarts, verified as while mapping: by what is usual at the true pose.
 Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
                                  const MatcherConfig& config) {
   const Matcher matcher(config);
@@ -71,10 +76,11 @@ Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
   }
   const double usual =
       Matcher::hitRatio(map, sample, matcher.refinePoints(sample), probe.T_map_sensor);
+  Acceptance acceptance(config, MapperConfig{});
+  acceptance.addHitRatio(usual);
+  acceptance.addBlocked(blockedShare(map, sample, kLinesOfSight, probe.T_map_sensor));
   MatchRequest request;
-  request.required_hit_ratio = config.relative_hit_ratio * usual;
-  request.far_hit_ratio = request.required_hit_ratio;
-  request.trusted_hit_ratio = usual;
+  acceptance.setLimits(0, false, kUnsure, request);
   return [=, &map](const Pose& guess, uint64_t seed) -> CapturedPose {
     MatchRequest from_guess = request;
     from_guess.guess.T_map_sensor = guess;

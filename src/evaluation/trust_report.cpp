@@ -16,6 +16,7 @@ struct ReportedStatus {
   const char* column;
 };
 constexpr ReportedStatus kReported[] = {{ScanStatus::kFallback, "fallback"},
+                                        {ScanStatus::kAmbiguous, "ambiguous"},
                                         {ScanStatus::kStale, "stale"},
                                         {ScanStatus::kTooFew, "too_few"},
                                         {ScanStatus::kTooLarge, "too_large"}};
@@ -71,16 +72,18 @@ void set(Table& table, const char* column, size_t count) {
 }
 
 const std::vector<Column> kShares = {
-    {"scans", "scans", 0},       {"right", "right %", 2},
-    {"lost", "lost %", 2},       {"wrong", "wrong % of located", 2},
-    {"fallback", "fallback", 0}, {"median_cm", "median [cm]", 1},
-    {"p95_cm", "95 % [cm]", 1},  {"max_cm", "max [cm]", 1}};
+    {"scans", "scans", 0},           {"right", "right %", 2},
+    {"lost", "lost %", 2},           {"wrong", "wrong % of located", 2},
+    {"ambiguous", "ambiguous", 0},   {"fallback", "fallback", 0},
+    {"median_cm", "median [cm]", 1}, {"p95_cm", "95 % [cm]", 1},
+    {"max_cm", "max [cm]", 1}};
 
 void setShares(const TrustCounts& counts, Table& table) {
   set(table, "scans", counts.scans());
   table.set("right", 1e2 * shareOf(counts.right, counts.scans()));
   table.set("lost", 1e2 * shareOf(counts.lost, counts.scans()));
   table.set("wrong", 1e2 * shareOf(counts.wrong, counts.located()));
+  set(table, "ambiguous", counts.count(ScanStatus::kAmbiguous));
   set(table, "fallback", counts.count(ScanStatus::kFallback));
   setErrors(counts, table);
 }
@@ -146,7 +149,9 @@ std::string meaning() {
          "located is wrong if its pose is more than " +
          shortText(kWrongDistance) + " m or " + shortText(kWrongAngle) +
          " degrees from the true one at its stamp, after the first pose has been put to the first "
-         "true one; else it is right. One that is not located is lost, whatever the reason. "
+         "true one; else it is right. One that is not located is lost, whatever the reason; "
+         "ambiguous: "
+         "those of them that fit in more than one place. "
          "Fallback: scans aligned to all voxels. Median and 95 %: distance of the right ones from "
          "the truth; max: of all located ones. Bags: the truth is their reference, or what the "
          "default configuration finds from all scans where none is given; scans that it does not "

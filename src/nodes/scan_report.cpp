@@ -36,6 +36,8 @@ std::string whyLost(const ScanResult& result) {
     case Refusal::kBlocked:
       return fits + ", but it would see through walls there: " + percent(result.blocked) +
              " of its lines of sight, " + percent(result.most_blocked) + " may";
+    case Refusal::kDisagrees:
+      return fits + ", but in one direction next to nothing does";
     case Refusal::kOutOfGrid:
       return "the pose found is out of the grid's range";
     default:
@@ -54,6 +56,10 @@ std::string adviceOn(const ScanResult& result) {
     case ScanStatus::kLost:
       return whyLost(result) +
              "; the map is as before: go back to a mapped place, or call reset for a new map";
+    case ScanStatus::kAmbiguous:
+      return percent(result.hit_ratio) +
+             " of the scan fits the map in more than one place; the map is as before: move on to "
+             "where the surroundings differ, or back to where the sensor was";
     case ScanStatus::kStale:
       if (result.ahead) {
         return "its stamp is later than that of the last scan by more than mapper/clock_leap; the "

@@ -58,6 +58,7 @@ void addScans(const RunRecord& run, Report& report) {
   report.add("tracked", uint64_t{run.located()});
   report.add("fallback", uint64_t{run.count(ScanStatus::kFallback)});
   report.add("lost", uint64_t{run.count(ScanStatus::kLost)});
+  report.add("ambiguous", uint64_t{run.count(ScanStatus::kAmbiguous)});
   report.add("stale", uint64_t{run.count(ScanStatus::kStale)});
   report.add("too_few_voxels", uint64_t{run.count(ScanStatus::kTooFew)});
   report.add("too_large", uint64_t{run.count(ScanStatus::kTooLarge)});

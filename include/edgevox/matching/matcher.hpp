@@ -47,6 +47,7 @@ struct MatchRequest {
   /// ... unless it is near the guess and has trusted_hit_ratio: glass and doors let lines pass
   double most_blocked_near = 1.0;
   double trusted_hit_ratio = 0;  ///< a refinement that reaches it from the guess needs no search
+  bool doubtful = false;         ///< the guess is unsure, see isDoubtful()
   double reach = 1.0;            ///< widening of the restarts; 1 is 1 m and 25 degrees
   double max_translation = 4.0;  ///< of an accepted match from the guess [m]
   double max_rotation = 1.4;     ///< the same [rad]
@@ -60,7 +61,9 @@ enum class Refusal {
   kOutOfGrid,  ///< the pose has left the range of the grid
   kTooFar,     ///< from the guess
   kFewHits,    ///< too few points lie in occupied voxels
+  kDisagrees,  ///< next to nothing that tells a direction of the pose fits: see agreement
   kBlocked,    ///< too many lines of sight would pass through walls
+  kAmbiguous,  ///< another pose, not near it, fits as well
 };
 
 /// What the geometry around leaves open, as the way along a bare corridor.
@@ -80,6 +83,9 @@ struct MatchResult {
   Refusal refusal = Refusal::kOutOfGrid;
   int matches = 0;   ///< points with a Gaussian in the last refinement step
   double fit = 0.0;  ///< mean robust weight of the refined points, 0 where there is no match
+  /// The share that fits of what the matched points say, in the direction of the pose in which it
+  /// is least; 1 where they say nothing.
+  double agreement = 1.0;
   int restarts = 0;
   uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
   /// Information of the last step, on (translation, rotation vector about the sensor), in the map's
@@ -92,6 +98,11 @@ struct MatchResult {
   bool accepted() const { return refusal == Refusal::kNone; }
 };
 
+/// Whether a match from an unsure guess may be one of several answers.
+inline bool isDoubtful(const MatchRequest& request, const MatchResult& match) {
+  return request.doubtful && match.hit_ratio < request.trusted_hit_ratio;
+}
+
 /// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
 /// 2010), then robust Gauss-Newton from points to voxel Gaussians; verified by the hit ratio.
 /// Deterministic: integer scores, fixed tie-breaks, sums in a fixed order.
@@ -103,8 +114,8 @@ class Matcher {
   size_t sampleSize() const;
   size_t refinePoints(const ScanSample& sample) const;
 
-  /// The match from the guess, else from restarts around it until one is accepted or the work is
-  /// too much.
+  /// The match from the guess; where it is not accepted, or not beyond doubt, the best of it and of
+  /// restarts around it, which is ambiguous if another one fits as well.
   MatchResult match(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
   /// The match from the guess alone.

@@ -11,13 +11,14 @@
 namespace edgevox {
 
 enum class ScanStatus {
-  kFirst,     ///< the map was empty: the scan fixes the map frame
-  kTracked,   ///< aligned to the map's selected voxels
-  kFallback,  ///< aligned to all occupied voxels
-  kLost,      ///< no match was good enough; the map and the pose are as before
-  kStale,     ///< not later than the last located scan, or too much later; not used
-  kTooFew,    ///< too few occupied voxels; not used
-  kTooLarge,  ///< more points or voxels than allowed; not used
+  kFirst,      ///< the map was empty: the scan fixes the map frame
+  kTracked,    ///< aligned to the map's selected voxels
+  kFallback,   ///< aligned to all occupied voxels
+  kLost,       ///< no match was good enough; the map and the pose are as before
+  kAmbiguous,  ///< lost, as matches at distinct poses fit alike
+  kStale,      ///< not later than the last located scan, or too much later; not used
+  kTooFew,     ///< too few occupied voxels; not used
+  kTooLarge,   ///< more points or voxels than allowed; not used
 };
 const char* toString(ScanStatus status);
 

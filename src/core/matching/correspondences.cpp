@@ -125,22 +125,30 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor, double wide
 }
 
 /// Of a surface of level 1 the share of what a well known one says counts.
-Matrix6 Correspondences::geometry(const Pose& T_map_sensor, double range) const {
-  NormalEquations sum;
+Geometry Correspondences::geometry(const Pose& T_map_sensor, double range) const {
+  NormalEquations all;
+  NormalEquations fitting;
   for (const NearPoint& near : near_) {
     const Placed at(T_map_sensor, near.point);
     const Eigen::Vector3d scaled = at.lever / std::max(range, at.lever.norm());
-    if (near.plane.known()) {
-      sum.add(near.plane.normal, 1.0, 0.0, scaled);
+    if (const PlaneInMap& plane = near.plane; plane.known()) {
+      const double e = plane.normal.dot(at.in_map) - plane.offset;
+      all.add(plane.normal, 1.0, 0.0, scaled);
+      fitting.add(plane.normal, robustWeight(kRobustScale, e * e * plane.information), 0.0, scaled);
       continue;
     }
     float distance = 0;
     const Surface* g = map_.surfaces().nearest(near.around, at.in_map_f, at.to_sensor, distance);
     if (g == nullptr) continue;
-    sum.add(symmetric(g->information) / kFullInformation, Eigen::Vector3d::Zero(), scaled);
+    const Eigen::Matrix3d known = symmetric(g->information) / kFullInformation;
+    const double weight = robustWeight(kRobustScale, static_cast<double>(distance));
+    all.add(known, Eigen::Vector3d::Zero(), scaled);
+    fitting.add(weight * known, Eigen::Vector3d::Zero(), scaled);
   }
-  sum.finish();
-  return sum.h / std::max(1, sum.matches);
+  all.finish();
+  fitting.finish();
+  const double count = std::max(1, all.matches);
+  return {all.h / count, fitting.h / count};
 }
 
 }  // namespace edgevox

@@ -38,6 +38,14 @@ struct PlaneInMap {
   bool known() const { return information > 0; }
 };
 
+/// How well the directions of a pose are constrained, whatever the precision of the map: the mean
+/// of J^T N J over the points, where N is the square of the unit normal of what is matched, on
+/// (translation, rotation vector times a range [m]).
+struct Geometry {
+  Matrix6 all = Matrix6::Zero();
+  Matrix6 fitting = Matrix6::Zero();  // each point by its robust weight
+};
+
 /// The first points of a sample that have something to match, each with what that is: the plane
 /// that it is near, else the surfaces of level 1 around it.
 class Correspondences {
@@ -53,10 +61,8 @@ class Correspondences {
   /// The robust kernel is `widening` times as wide, squared. Points that have moved to another
   /// voxel are given what is there.
   NormalEquations linearise(const Pose& T_map_sensor, double widening);
-  /// How well the directions of the pose are constrained, whatever the precision of the map: the
-  /// mean of J^T N J over the points, where N is the square of the unit normal of what is matched,
-  /// on (translation, rotation vector times `range` [m]).
-  Matrix6 geometry(const Pose& T_map_sensor, double range) const;
+  /// Rotations are counted at `range` [m].
+  Geometry geometry(const Pose& T_map_sensor, double range) const;
 
   uint64_t lookUps() const { return look_ups_; }
 

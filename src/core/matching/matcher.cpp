@@ -28,11 +28,17 @@ constexpr double kNearStep = 0.25;           // after which other points may be 
 constexpr double kLeastKnown = 0.25;         // of a sample
 constexpr int kKnownLevel = 3;
 constexpr int kFinestSearchLevel = 2;
-constexpr double kWidest = 16.0;        // of the squared kernel of a refinement
-constexpr double kNarrowing = 0.25;     // of that, each step
-constexpr double kSharpSigma = 0.02;    // of a prediction that needs no wider kernel [m]
-constexpr double kDegenerate = 0.0015;  // mean square across what is matched, at most
-constexpr double kInflation = 6.0;      // the inverse information underestimates the scatter
+constexpr double kWidest = 16.0;          // of the squared kernel of a refinement
+constexpr double kNarrowing = 0.25;       // of that, each step
+constexpr double kSharpSigma = 0.02;      // of a prediction that needs no wider kernel [m]
+constexpr double kLeastAgreement = 0.12;  // of a match from an unsure guess
+constexpr double kComparable = 0.9;       // coarse score of a restart, of the best one
+constexpr double kAlike = 0.98;           // hit ratio of another answer, of the best one
+constexpr double kSameTranslation = 0.5;  // within which two matches are one answer [m]
+constexpr double kSameRotation = 5.0 * M_PI / 180.0;  // the same [rad]
+constexpr double kSameStart = 0.25;                   // of these, of starts that lead to one match
+constexpr double kDegenerate = 0.0015;                // mean square across what is matched, at most
+constexpr double kInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLeastInformation = kInflation / (1.0 * 1.0);  // of a pose: 1 m, 1 rad
 constexpr double kLargestMove = 10.0;                           // of one step [m, rad]
 constexpr double kConvergedDistance = 5e-4;                     // [m]
@@ -175,6 +181,20 @@ class OpenDirections {
   Degeneracy degeneracy_;
 };
 
+/// See MatchResult::agreement.
+double agreementOf(const Geometry& geometry) {
+  const Matrix6 nothing = kDegenerate * Matrix6::Identity();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(
+      geometry.fitting + nothing, geometry.all + nothing, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0];
+}
+
+bool areWithin(double share, const Pose& a, const Pose& b) {
+  const Pose between = a.inverse() * b;
+  return between.translation().norm() < share * kSameTranslation &&
+         rotationAngle(between) < share * kSameRotation;
+}
+
 Matrix6 covarianceOf(const Matrix6& information) {
   const Matrix6 covariance = kInflation * information.ldlt().solve(Matrix6::Identity());
   return 0.5 * (covariance + covariance.transpose());
@@ -224,7 +244,8 @@ size_t Matcher::refinePoints(const ScanSample& sample) const {
 MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
                            const MatchRequest& request) const {
   MatchResult result = align(map, sample, request);
-  if (result.accepted() || !isInGridRange(map, sample, request.guess.T_map_sensor)) return result;
+  if (result.accepted() && !isDoubtful(request, result)) return result;
+  if (!isInGridRange(map, sample, request.guess.T_map_sensor)) return result;
   restart(map, sample, request, result);
   return result;
 }
@@ -285,12 +306,16 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
     result.refusal = Refusal::kTooFar;
   } else if (result.hit_ratio < result.required_hit_ratio) {
     result.refusal = Refusal::kFewHits;
+  } else if (request.doubtful && result.agreement < kLeastAgreement) {
+    result.refusal = Refusal::kDisagrees;
   } else {
     result.refusal = result.blocked > result.most_blocked ? Refusal::kBlocked : Refusal::kNone;
   }
   return result;
 }
 
+/// Goes on when one is accepted: whether it is the only answer is part of it. In open directions
+/// there are answers all along, of which the prediction chooses one.
 void Matcher::restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                       MatchResult& best) const {
   const auto points = static_cast<size_t>(config_.restart_points);
@@ -299,24 +324,39 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     return score(map, kFinestSearchLevel, sample, count, pose);
   };
   const auto all_points = static_cast<size_t>(config_.search_points);
+  std::vector<Pose> starts;
+  std::vector<MatchResult> answers;
+  if (best.accepted()) answers.push_back(best);
   uint64_t state = mixBits(request.seed + 1);
   uint64_t look_ups = best.look_ups;
   int best_score = coarseScore(best.T_map_sensor);
-  for (int i = 1; i <= config_.max_restarts && !best.accepted() && look_ups < kMostLookUps; ++i) {
-    const double growth = 1.0 + static_cast<double>(i) / config_.max_restarts;
+  int restarts = 0;
+  while (restarts < config_.max_restarts && look_ups < kMostLookUps) {
+    const double growth = 1.0 + static_cast<double>(++restarts) / config_.max_restarts;
     const Pose start = disturbed(request.guess.T_map_sensor, request.reach * growth, state);
     const Pose found = search(map, sample, points, start, look_ups);
-    best.restarts = i;
-    if (coarseScore(found) <= best_score) continue;
+    const auto isFound = [&](const Pose& other) { return areWithin(kSameStart, found, other); };
+    if (coarseScore(found) < kComparable * best_score ||
+        std::any_of(starts.begin(), starts.end(), isFound)) {
+      continue;
+    }
+    starts.push_back(found);
     const Pose finer = search(map, sample, all_points, found, look_ups);
-    MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
+    const MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
     look_ups += candidate.look_ups;
-    candidate.restarts = i;
-    if (!candidate.accepted() && candidate.hit_ratio <= best.hit_ratio) continue;
+    if (candidate.accepted()) answers.push_back(candidate);
+    if (candidate.accepted() < best.accepted()) continue;
+    if (candidate.accepted() == best.accepted() && candidate.hit_ratio <= best.hit_ratio) continue;
     best = candidate;
     best_score = coarseScore(best.T_map_sensor);
   }
+  best.restarts = restarts;
   best.look_ups = look_ups;
+  const bool ambiguous = std::any_of(answers.begin(), answers.end(), [&](const MatchResult& other) {
+    return other.hit_ratio > kAlike * best.hit_ratio &&
+           !areWithin(1.0, best.T_map_sensor, other.T_map_sensor);
+  });
+  if (ambiguous && best.degeneracy.directions == 0) best.refusal = Refusal::kAmbiguous;
 }
 
 Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t points,
@@ -357,7 +397,7 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     if (!open || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
       near.find(pose);
       near_pose = pose;
-      open.emplace(near.geometry(pose, range), range);
+      open.emplace(near.geometry(pose, range).all, range);
       prior = (predicted.measured ? open->within(predicted.information) : predicted.information) +
               kLeastInformation * Matrix6::Identity();
     }
@@ -382,6 +422,9 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     widening = std::max(1.0, widening * kNarrowing);
   }
   result.covariance = covarianceOf(result.information + prior);
+  if (inGridRange(pose, map.voxelSize(0))) {
+    result.agreement = agreementOf(near.geometry(pose, range));
+  }
   renormalise(pose);
   return result;
 }

@@ -13,6 +13,8 @@ const char* toString(ScanStatus status) {
       return "fallback";
     case ScanStatus::kLost:
       return "lost";
+    case ScanStatus::kAmbiguous:
+      return "ambiguous";
     case ScanStatus::kStale:
       return "stale";
     case ScanStatus::kTooFew:

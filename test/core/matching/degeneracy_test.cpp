@@ -103,6 +103,25 @@ TEST(Degeneracy, LeavesTheCovarianceOfThePrediction) {
   }
 }
 
+TEST(Agreement, IsLeastInTheDirectionThatDoesNotFit) {
+  const MappedCorridor mapped(true);
+  const auto agreementAt = [&](double x) {
+    Matcher::Refinement held;
+    held.start = at(x);
+    held.predicted = Prediction::withCovariance(held.start, 1e-10 * Matrix6::Identity(), false);
+    return Matcher(mapped.config.matcher)
+        .refine(mapped.builder.matchMap(), mapped.sample, held)
+        .agreement;
+  };
+  EXPECT_GT(agreementAt(0.0), 0.8);
+  EXPECT_LT(agreementAt(0.3), 0.1) << "the wall at the end is off";
+}
+
+TEST(Agreement, IsFullWhereNothingIsKnown) {
+  const MappedCorridor mapped(false);
+  EXPECT_GT(mapped.refineFrom(0.3, 0.1, true).agreement, 0.8) << "any place along a corridor fits";
+}
+
 TEST(Degeneracy, LeavesAFiniteCovarianceWhereNothingIsKnown) {
   const Config config;
   const MapBuilder empty(config.voxel_size, config.map, config.edges, 1);

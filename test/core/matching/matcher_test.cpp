@@ -417,5 +417,66 @@ TEST(Match, OfNothingIsHarmless) {
   EXPECT_TRUE(result.T_map_sensor.matrix().allFinite());
 }
 
+/// Two rooms side by side, alike but for a cupboard in one of them, if there is one; the sample is
+/// of that one.
+struct RoomsAlike {
+  static constexpr double kApart = 2.5;  // [m]
+
+  Config config;
+  MapBuilder builder{config.voxel_size, config.map, config.edges, 1};
+  ScanSample sample;
+
+  explicit RoomsAlike(bool cupboard) {
+    Random random(11);
+    for (int i = 0; i < 3; ++i) {
+      for (const double x : {0.0, kApart}) {
+        std::vector<Vector3d> points = room(cupboard && x == 0.0, random);
+        for (Vector3d& point : points) point.x() += x;
+        builder.insert(points, {x, 0, 0});
+      }
+    }
+    builder.label();
+    builder.prepareAll();
+    sample = room(cupboard, random);
+  }
+
+  /// From the door between the rooms.
+  MatchResult match() const {
+    MatchRequest request;
+    request.guess.T_map_sensor.translation().x() = 0.45 * kApart;
+    request.required_hit_ratio = 0.7;
+    request.trusted_hit_ratio = 1.1;
+    request.far_translation = 10.0;
+    request.doubtful = true;
+    return Matcher(config.matcher).match(builder.matchMap(), sample, request);
+  }
+
+ private:
+  static std::vector<Vector3d> room(bool cupboard, Random& random) {
+    constexpr double kHalf = 1.2;  // [m]
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 9000; ++i) {
+      Vector3d point(random.uniform(-kHalf, kHalf), random.uniform(-kHalf, kHalf),
+                     random.uniform(-kHalf, kHalf));
+      point[i % 3] = i % 2 == 0 ? kHalf : -kHalf;
+      if (cupboard && i % 5 == 0) point = {0.6, point.y() / 4, point.z()};
+      points.push_back(point + 0.005 * random.normalVector());
+    }
+    return points;
+  }
+};
+
+TEST(Matcher, DoesNotChooseBetweenPlacesThatFitAlike) {
+  const MatchResult result = RoomsAlike(false).match();
+  EXPECT_EQ(Refusal::kAmbiguous, result.refusal);
+  EXPECT_GT(result.hit_ratio, 0.9);
+}
+
+TEST(Matcher, ChoosesThePlaceThatFitsBetter) {
+  const MatchResult result = RoomsAlike(true).match();
+  EXPECT_EQ(Refusal::kNone, result.refusal);
+  EXPECT_LT(result.T_map_sensor.translation().norm(), 0.05);
+}
+
 }  // namespace
 }  // namespace edgevox::test
