@@ -94,7 +94,10 @@ class ReadmeOfNodelets : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(waitFor([] { return isMapping("/edgevox"); }));
-    graph_ = readGraph();
+    ASSERT_TRUE(waitFor([this] {  // the last that each of them advertises
+      graph_ = readGraph();
+      return nodeletsIn(graph_.publishers["/diagnostics"]) == "all";
+    }));
   }
 
   static std::string relative(const std::string& name) {
