@@ -17,6 +17,7 @@ constexpr double kLeastUnsure = 0.75;     // of the running median, of a match f
 constexpr double kVeryUnsure = 0.5;       // the same
 constexpr double kLeastVeryUnsure = 0.8;  // of the running median
 constexpr double kFarTranslation = 1.0;   // from the prediction [m]
+constexpr double kFarUnsure = 0.5;        // the same, of an unsure one [m]
 constexpr double kFarRotation = 20.0 * M_PI / 180.0;  // [rad]
 constexpr double kMostBlockedAtFirst = 0.2;           // lines of sight, before there is a history
 constexpr double kBlocked = 0.08;                     // the same later, more than ...
@@ -38,7 +39,8 @@ void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, double step_sigma
   const double usual = upperMedian(hit_ratios_.values());
   request.trusted_hit_ratio = kTrusted * usual;
   request.far_hit_ratio = request.trusted_hit_ratio;
-  const bool strict = blind && hit_ratios_.values().size() >= kFewest;
+  const bool known = hit_ratios_.values().size() >= kFewest;
+  const bool strict = blind && known;
   if (strict) {
     const double more = kMoreEachLost * static_cast<double>(lost_in_a_row);
     request.far_hit_ratio = std::min(1.0, kTrusted + more) * usual;
@@ -49,7 +51,7 @@ void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, double step_sigma
   if (step_sigma > kVeryUnsure) least = std::max(kLeastVeryUnsure, least);
   request.required_hit_ratio =
       strict ? request.far_hit_ratio : std::max(least * usual, matcher_.min_hit_ratio);
-  request.far_translation = kFarTranslation;
+  request.far_translation = request.doubtful && known ? kFarUnsure : kFarTranslation;
   request.far_rotation = kFarRotation;
   request.most_blocked = kBlocked + kTimesBlocked * upperMedian(blocked_.values());
   request.most_blocked_near = request.most_blocked + (lost_in_a_row > 0 ? 0.0 : kBlockedNear);
