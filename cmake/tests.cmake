@@ -1,18 +1,22 @@
-# Parsing the headers of gtest, Eigen, ROS and PCL takes most of a test's compile time; tests of a
-# kind share them compiled. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows an include that is missing.
-function(edgevox_precompile test_target kind)
+# Most of a test's compile time goes into the headers of gtest, Eigen, ROS and PCL, which the tests
+# of a kind share compiled, and into optimising what runs once.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows an include that is missing.
+set(core_test_headers <algorithm> <filesystem> <fstream> <sstream> <string> <vector>
+  <gtest/gtest.h> <Eigen/Geometry>)
+set(outer_test_headers ${core_test_headers} <pcl/io/pcd_io.h> <pcl/io/ply_io.h>
+  <ros/node_handle.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h> <tf2_msgs/TFMessage.h>
+  <yaml-cpp/yaml.h>)
+function(edgevox_compile_test test_target kind)
+  target_compile_options(${test_target} PRIVATE -O1
+    -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
   get_property(first GLOBAL PROPERTY edgevox_precompiled_${kind})
   if(first)
     target_precompile_headers(${test_target} REUSE_FROM ${first})
   else()
-    target_precompile_headers(${test_target} PRIVATE ${ARGN})
+    target_precompile_headers(${test_target} PRIVATE ${${kind}_test_headers})
     set_property(GLOBAL PROPERTY edgevox_precompiled_${kind} ${test_target})
   endif()
 endfunction()
-set(test_headers <algorithm> <filesystem> <fstream> <sstream> <string> <vector>
-  <gtest/gtest.h> <Eigen/Geometry>)
-set(outer_test_headers ${test_headers} <pcl/io/pcd_io.h> <pcl/io/ply_io.h> <ros/node_handle.h>
-  <rosbag/bag.h> <sensor_msgs/PointCloud2.h> <tf2_msgs/TFMessage.h> <yaml-cpp/yaml.h>)
 
 # ---- Tests: every *_test.cpp below test/<folder> is one program, edgevox_<folder>_<file> ----
 if(CATKIN_ENABLE_TESTING)
@@ -46,16 +50,15 @@ if(CATKIN_ENABLE_TESTING)
       get_filename_component(test_name ${test_source} NAME_WE)
       set(test_target ${PROJECT_NAME}_${folder}_${test_name})
       catkin_add_gtest(${test_target} ${test_source})
-      target_compile_options(${test_target} PRIVATE -O1 -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
       target_link_libraries(${test_target}
         ${PROJECT_NAME}_test_support ${PROJECT_NAME}_sim OpenSSL::Crypto ${gtest_main})
       if(folder MATCHES "evaluation|run|tools")
         target_include_directories(${test_target} SYSTEM PRIVATE ${outer_include_dirs})
         target_link_libraries(${test_target} ${PROJECT_NAME}_tools)
         add_dependencies(${test_target} ${PROJECT_NAME}_map_bag)  # which some of them call
-        edgevox_precompile(${test_target} outer ${outer_test_headers})
+        edgevox_compile_test(${test_target} outer)
       else()
-        edgevox_precompile(${test_target} core ${test_headers})
+        edgevox_compile_test(${test_target} core)
       endif()
       if(folder STREQUAL "evaluation")
         target_link_libraries(${test_target} ${PROJECT_NAME}_evaluation)
@@ -78,12 +81,11 @@ if(CATKIN_ENABLE_TESTING)
     get_filename_component(test_name ${ros_test} NAME_WE)
     set(test_target ${PROJECT_NAME}_ros_${test_name}_test)
     add_rostest_gtest(${test_target} ${ros_test} test/ros/${test_name}_test.cpp)
-    target_compile_options(${test_target} PRIVATE -O1 -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
     target_include_directories(${test_target} SYSTEM PRIVATE ${outer_include_dirs})
     target_link_libraries(${test_target}
       ${PROJECT_NAME}_test_support ${PROJECT_NAME}_live ${PROJECT_NAME}_tools ${gtest_main})
     add_dependencies(${test_target} ${PROJECT_NAME}_nodelets)
-    edgevox_precompile(${test_target} outer ${outer_test_headers})
+    edgevox_compile_test(${test_target} outer)
   endforeach()
   roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)
 endif()
