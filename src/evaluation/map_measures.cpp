@@ -63,9 +63,6 @@ Trajectory referenceOf(const Recording& recording) {
   return reference;
 }
 
-constexpr double kUnsure = 1.0;        // standard deviation of a guess [m]
-constexpr size_t kLinesOfSight = 500;  // looked along at the true pose
-
 /// The matcher, with restarts, verified as while mapping: by what is usual at the true pose.
 Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
                                  const MatcherConfig& config) {
@@ -80,7 +77,7 @@ Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
   acceptance.addHitRatio(usual);
   acceptance.addBlocked(blockedShare(map, sample, kLinesOfSight, probe.T_map_sensor));
   MatchRequest request;
-  acceptance.setLimits(0, false, kUnsure, request);
+  acceptance.setLimits(0, false, request);
   return [=, &map](const Pose& guess, uint64_t seed) -> CapturedPose {
     MatchRequest from_guess = request;
     from_guess.guess.T_map_sensor = guess;

@@ -150,8 +150,7 @@ std::string meaning() {
          shortText(kWrongDistance) + " m or " + shortText(kWrongAngle) +
          " degrees from the true one at its stamp, after the first pose has been put to the first "
          "true one; else it is right. One that is not located is lost, whatever the reason; "
-         "ambiguous: "
-         "those of them that fit in more than one place. "
+         "ambiguous: those of them that fit in more than one place. "
          "Fallback: scans aligned to all voxels. Median and 95 %: distance of the right ones from "
          "the truth; max: of all located ones. Bags: the truth is their reference, or what the "
          "default configuration finds from all scans where none is given; scans that it does not "

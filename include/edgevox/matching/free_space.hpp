@@ -11,6 +11,8 @@
 
 namespace edgevox {
 
+constexpr size_t kLinesOfSight = 500;  ///< of a scan, looked along to verify its pose
+
 /// The share of the first `count` points, in the sensor's frame [m], whose lines of sight from
 /// `T_map_sensor` cross a known plane in an occupied voxel and end well behind it: few where the
 /// pose is right, as nobody sees through walls (compare the ray queries of Ryde and Hu 2010).

@@ -29,6 +29,8 @@ struct Prediction {
   /// By an odometry, which decides what the geometry leaves open, and nothing else. A velocity is
   /// less sure: its error would go on for good. It is weighed against what the match says.
   bool measured = false;
+  /// Standard deviation of the way since the last located scan [m]; the default: it is not known.
+  double step_sigma = 1.0;
 
   static Prediction withCovariance(const Pose& T_map_sensor, const Matrix6& covariance,
                                    bool measured);
@@ -84,7 +86,7 @@ struct MatchResult {
   int matches = 0;   ///< points with a Gaussian in the last refinement step
   double fit = 0.0;  ///< mean robust weight of the refined points, 0 where there is no match
   /// The share that fits of what the matched points say, in the direction of the pose in which it
-  /// is least; 1 where they say nothing.
+  /// is least; 1 where they say nothing, or nobody has asked.
   double agreement = 1.0;
   int restarts = 0;
   uint64_t look_ups = 0;  ///< points looked up in the map: the work of all of it
@@ -134,6 +136,7 @@ class Matcher {
     double widening = 1.0;    ///< of the robust kernel's square at first; it narrows to 1
     int steps = 15;           ///< at most
     bool all_voxels = false;  ///< match all surfaces, not only the selected ones
+    bool compares = false;    ///< tells MatchResult::agreement
   };
   /// The refinement alone. Whether it is accepted is not asked. It ends where the pose leaves the
   /// grid's range.

@@ -18,9 +18,8 @@ class Acceptance {
 
   /// Sets what a match must reach: more after a scan that was lost; `blind`, where the guess is no
   /// prediction but the pose before, near it as much as far from it, and more with each lost scan.
-  /// `step_sigma`: standard deviation of the predicted step since the last located scan [m].
-  void setLimits(uint64_t lost_in_a_row, bool blind, double step_sigma,
-                 MatchRequest& request) const;
+  /// By how sure the request's guess is, which is set before.
+  void setLimits(uint64_t lost_in_a_row, bool blind, MatchRequest& request) const;
   /// Whether a match to the selected surfaces is too weak; `sigma` as of worstSigma() [m].
   bool needsFallback(const MatchResult& match, double sigma) const;
   void addHitRatio(double ratio) { hit_ratios_.push(ratio); }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -78,7 +77,6 @@ class Tracker {
   double fastestChange() const;
   /// Whether a sensor without odometry is predicted to move as before; else it is lost too long.
   bool goesOn() const { return lost_in_a_row_ <= 1; }
-  std::optional<Matrix6> covarianceSinceLast(const Pose& pose, double time) const;
   Prediction predict(double time) const;
   MatchRequest requestFor(const SweepPose& now, const Prediction& predicted,
                           uint32_t version) const;

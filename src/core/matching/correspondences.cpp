@@ -125,30 +125,36 @@ NormalEquations Correspondences::linearise(const Pose& T_map_sensor, double wide
 }
 
 /// Of a surface of level 1 the share of what a well known one says counts.
-Geometry Correspondences::geometry(const Pose& T_map_sensor, double range) const {
-  NormalEquations all;
-  NormalEquations fitting;
+template <typename WeightOf>
+Matrix6 Correspondences::weightedGeometry(const Pose& T_map_sensor, double range,
+                                          const WeightOf& weightOf) const {
+  NormalEquations sum;
   for (const NearPoint& near : near_) {
     const Placed at(T_map_sensor, near.point);
     const Eigen::Vector3d scaled = at.lever / std::max(range, at.lever.norm());
     if (const PlaneInMap& plane = near.plane; plane.known()) {
       const double e = plane.normal.dot(at.in_map) - plane.offset;
-      all.add(plane.normal, 1.0, 0.0, scaled);
-      fitting.add(plane.normal, robustWeight(kRobustScale, e * e * plane.information), 0.0, scaled);
+      sum.add(plane.normal, weightOf(e * e * plane.information), 0.0, scaled);
       continue;
     }
     float distance = 0;
     const Surface* g = map_.surfaces().nearest(near.around, at.in_map_f, at.to_sensor, distance);
     if (g == nullptr) continue;
-    const Eigen::Matrix3d known = symmetric(g->information) / kFullInformation;
-    const double weight = robustWeight(kRobustScale, static_cast<double>(distance));
-    all.add(known, Eigen::Vector3d::Zero(), scaled);
-    fitting.add(weight * known, Eigen::Vector3d::Zero(), scaled);
+    const double weight = weightOf(static_cast<double>(distance));
+    sum.add(weight * (symmetric(g->information) / kFullInformation), Eigen::Vector3d::Zero(),
+            scaled);
   }
-  all.finish();
-  fitting.finish();
-  const double count = std::max(1, all.matches);
-  return {all.h / count, fitting.h / count};
+  sum.finish();
+  return sum.h / std::max(1, sum.matches);
+}
+
+Matrix6 Correspondences::geometry(const Pose& T_map_sensor, double range) const {
+  return weightedGeometry(T_map_sensor, range, [](double) { return 1.0; });
+}
+
+Matrix6 Correspondences::fittingGeometry(const Pose& T_map_sensor, double range) const {
+  return weightedGeometry(T_map_sensor, range,
+                          [](double squared) { return robustWeight(kRobustScale, squared); });
 }
 
 }  // namespace edgevox

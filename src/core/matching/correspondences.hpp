@@ -38,14 +38,6 @@ struct PlaneInMap {
   bool known() const { return information > 0; }
 };
 
-/// How well the directions of a pose are constrained, whatever the precision of the map: the mean
-/// of J^T N J over the points, where N is the square of the unit normal of what is matched, on
-/// (translation, rotation vector times a range [m]).
-struct Geometry {
-  Matrix6 all = Matrix6::Zero();
-  Matrix6 fitting = Matrix6::Zero();  // each point by its robust weight
-};
-
 /// The first points of a sample that have something to match, each with what that is: the plane
 /// that it is near, else the surfaces of level 1 around it.
 class Correspondences {
@@ -61,8 +53,12 @@ class Correspondences {
   /// The robust kernel is `widening` times as wide, squared. Points that have moved to another
   /// voxel are given what is there.
   NormalEquations linearise(const Pose& T_map_sensor, double widening);
-  /// Rotations are counted at `range` [m].
-  Geometry geometry(const Pose& T_map_sensor, double range) const;
+  /// How well the directions of the pose are constrained, whatever the precision of the map: the
+  /// mean of J^T N J over the points, where N is the square of the unit normal of what is matched,
+  /// on (translation, rotation vector times `range` [m]).
+  Matrix6 geometry(const Pose& T_map_sensor, double range) const;
+  /// The same, with each point by its robust weight.
+  Matrix6 fittingGeometry(const Pose& T_map_sensor, double range) const;
 
   uint64_t lookUps() const { return look_ups_; }
 
@@ -75,6 +71,10 @@ class Correspondences {
 
   bool lookUp(const Eigen::Vector3f& in_map, const Eigen::Vector3f& to_sensor,
               NearPoint& near) const;
+
+  /// weightOf: of a squared distance in standard deviations.
+  template <typename WeightOf>
+  Matrix6 weightedGeometry(const Pose& T_map_sensor, double range, const WeightOf& weightOf) const;
 
   const MatchMap& map_;
   const ScanSample& sample_;

@@ -22,7 +22,6 @@ constexpr int kCandidates = 4;            // for each point refined: most have n
 constexpr double kRestartDistance = 1.0;  // [m]
 constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
 constexpr uint64_t kMostLookUps = 12000000;  // of a match; four times what a found one needed
-constexpr size_t kLinesOfSight = 500;        // of a match, looked along
 constexpr double kTrustedStep = 1.0;         // of a refinement alone [voxel of level 1]
 constexpr double kNearStep = 0.25;           // after which other points may be near [voxel]
 constexpr double kLeastKnown = 0.25;         // of a sample
@@ -182,10 +181,10 @@ class OpenDirections {
 };
 
 /// See MatchResult::agreement.
-double agreementOf(const Geometry& geometry) {
+double agreementOf(const Matrix6& all, const Matrix6& fitting) {
   const Matrix6 nothing = kDegenerate * Matrix6::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(
-      geometry.fitting + nothing, geometry.all + nothing, Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(fitting + nothing, all + nothing,
+                                                                 Eigen::EigenvaluesOnly);
   return solver.eigenvalues()[0];
 }
 
@@ -287,6 +286,7 @@ MatchResult Matcher::refineFrom(const MatchMap& map, const ScanSample& sample,
   refinement.predicted = request.guess;
   refinement.widening = widening;
   refinement.all_voxels = request.all_voxels;
+  refinement.compares = request.doubtful;
   return verified(map, sample, request, refine(map, sample, refinement));
 }
 
@@ -306,7 +306,7 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
     result.refusal = Refusal::kTooFar;
   } else if (result.hit_ratio < result.required_hit_ratio) {
     result.refusal = Refusal::kFewHits;
-  } else if (request.doubtful && result.agreement < kLeastAgreement) {
+  } else if (result.agreement < kLeastAgreement) {
     result.refusal = Refusal::kDisagrees;
   } else {
     result.refusal = result.blocked > result.most_blocked ? Refusal::kBlocked : Refusal::kNone;
@@ -345,8 +345,10 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     const MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
     look_ups += candidate.look_ups;
     if (candidate.accepted()) answers.push_back(candidate);
-    if (candidate.accepted() < best.accepted()) continue;
-    if (candidate.accepted() == best.accepted() && candidate.hit_ratio <= best.hit_ratio) continue;
+    if (std::pair(candidate.accepted(), candidate.hit_ratio) <=
+        std::pair(best.accepted(), best.hit_ratio)) {
+      continue;
+    }
     best = candidate;
     best_score = coarseScore(best.T_map_sensor);
   }
@@ -397,7 +399,7 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     if (!open || largestStep(near_pose, pose, range) > kNearStep * map.voxelSize(1)) {
       near.find(pose);
       near_pose = pose;
-      open.emplace(near.geometry(pose, range).all, range);
+      open.emplace(near.geometry(pose, range), range);
       prior = (predicted.measured ? open->within(predicted.information) : predicted.information) +
               kLeastInformation * Matrix6::Identity();
     }
@@ -422,8 +424,8 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     widening = std::max(1.0, widening * kNarrowing);
   }
   result.covariance = covarianceOf(result.information + prior);
-  if (inGridRange(pose, map.voxelSize(0))) {
-    result.agreement = agreementOf(near.geometry(pose, range));
+  if (refinement.compares && inGridRange(pose, map.voxelSize(0))) {
+    result.agreement = agreementOf(near.geometry(pose, range), near.fittingGeometry(pose, range));
   }
   renormalise(pose);
   return result;

@@ -12,12 +12,12 @@ namespace {
 constexpr double kTrusted = 0.95;         // of the running median of the hit ratios
 constexpr double kMoreEachLost = 0.005;   // of it, with each lost scan without a guess
 constexpr size_t kFewest = 4;             // scans, until when it is not known what is usual
-constexpr double kUnsure = 0.25;          // standard deviation of a prediction [m]
-constexpr double kLeastUnsure = 0.75;     // of the running median, of a match from it
+constexpr double kUnsure = 0.25;          // standard deviation of a predicted step [m]
 constexpr double kVeryUnsure = 0.5;       // the same
-constexpr double kLeastVeryUnsure = 0.8;  // of the running median
+constexpr double kLeastUnsure = 0.75;     // of the running median, of a match from such a step
+constexpr double kLeastVeryUnsure = 0.8;  // the same
 constexpr double kFarTranslation = 1.0;   // from the prediction [m]
-constexpr double kFarUnsure = 0.5;        // the same, of an unsure one [m]
+constexpr double kFarUnsure = 0.5;        // the same, after an unsure step
 constexpr double kFarRotation = 20.0 * M_PI / 180.0;  // [rad]
 constexpr double kMostBlockedAtFirst = 0.2;           // lines of sight, before there is a history
 constexpr double kBlocked = 0.08;                     // the same later, more than ...
@@ -27,8 +27,7 @@ constexpr double kTimesBlocked = 2.5;  // ... so many times their running median
 }  // namespace
 
 /// Before there is a history, a match is not trusted.
-void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, double step_sigma,
-                           MatchRequest& request) const {
+void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, MatchRequest& request) const {
   if (hit_ratios_.empty()) {
     request.required_hit_ratio = matcher_.min_hit_ratio;
     request.far_hit_ratio = matcher_.min_hit_ratio;
@@ -45,6 +44,7 @@ void Acceptance::setLimits(uint64_t lost_in_a_row, bool blind, double step_sigma
     const double more = kMoreEachLost * static_cast<double>(lost_in_a_row);
     request.far_hit_ratio = std::min(1.0, kTrusted + more) * usual;
   }
+  const double step_sigma = request.guess.step_sigma;
   request.doubtful = step_sigma > kUnsure;
   double least = matcher_.relative_hit_ratio;
   if (request.doubtful) least = std::max(kLeastUnsure, least);

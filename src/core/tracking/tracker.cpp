@@ -15,8 +15,7 @@ constexpr double kMaxTranslation = 2.0;    // a match from its prediction [m]
 constexpr double kFastestChange = 10.0;    // the same, of the time passed, of a known motion [m/s]
 constexpr double kRadians = M_PI / 180.0;  // in a degree
 constexpr double kMaxRotation = 60.0 * kRadians;  // [rad]
-constexpr int kStepsDeskewed = 11;    // of the refinement, after the motion in the sweep is known
-constexpr double kUnknownStep = 1.0;  // standard deviation [m]
+constexpr int kStepsDeskewed = 11;  // of the refinement, after the motion in the sweep is known
 constexpr double kLeastInterval = 1e-3;  // of two sweeps' middles [s]
 
 struct Sigma {
@@ -148,22 +147,18 @@ void Tracker::align(const VoxelScan& scan, const SweepTime& sweep, const Tracked
   result.degeneracy = refined.degeneracy;
 }
 
-/// Of the step from the last located scan to `pose`; none where the motion is not known.
-std::optional<Matrix6> Tracker::covarianceSinceLast(const Pose& pose, double time) const {
-  if (const auto step = odometry_watch_.sinceLocated()) return covarianceOf(*step, 0.0, kOdometry);
-  if (!goesOn() || !motion_.velocity()) return std::nullopt;
-  const SweepPose& last = motion_.last();
-  return covarianceOf(last.T_map_sensor.inverse() * pose, time - last.time, kConstantVelocity);
-}
-
 /// Sure as the last pose and what has come since. Of a sensor whose motion is not known nothing is
 /// predicted: it is looked for where it was.
 Prediction Tracker::predict(double time) const {
   const auto step = odometry_watch_.sinceLocated();
   const Pose pose = motion_.predict(time, step, goesOn());
-  const auto since = covarianceSinceLast(pose, time);
-  if (!since) return {pose, Matrix6::Zero(), false};
-  return Prediction::withCovariance(pose, covariance_ + *since, step.has_value());
+  if (!step && !(goesOn() && motion_.velocity())) return {pose, Matrix6::Zero(), false};
+  const Matrix6 since = step ? covarianceOf(*step, 0.0, kOdometry)
+                             : covarianceOf(motion_.last().T_map_sensor.inverse() * pose,
+                                            time - motion_.last().time, kConstantVelocity);
+  Prediction predicted = Prediction::withCovariance(pose, covariance_ + since, step.has_value());
+  predicted.step_sigma = std::sqrt(since(0, 0));
+  return predicted;
 }
 
 MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predicted,
@@ -172,9 +167,7 @@ MatchRequest Tracker::requestFor(const SweepPose& now, const Prediction& predict
   MatchRequest request;
   request.guess = predicted;
   const bool blind = !predicted.measured && (!motion_.known() || !goesOn());
-  const auto since = covarianceSinceLast(predicted.T_map_sensor, now.time);
-  acceptance_.setLimits(lost_in_a_row_, blind, since ? std::sqrt((*since)(0, 0)) : kUnknownStep,
-                        request);
+  acceptance_.setLimits(lost_in_a_row_, blind, request);
   request.reach = std::min(1.0 + static_cast<double>(lost_in_a_row_), kLongestReach);
   request.max_translation = kMaxTranslation + fastestChange() * since_last;
   request.max_rotation = kMaxRotation + config_.mapper.max_turn * kRadians * since_last;

@@ -70,6 +70,7 @@ struct MappedCorridor {
     refinement.predicted =
         Prediction::withCovariance(refinement.start, sigma * sigma * Matrix6::Identity(), measured);
     refinement.widening = 16;
+    refinement.compares = true;
     return Matcher(config.matcher).refine(builder.matchMap(), sample, refinement);
   }
 };
@@ -108,6 +109,7 @@ TEST(Agreement, IsLeastInTheDirectionThatDoesNotFit) {
   const auto agreementAt = [&](double x) {
     Matcher::Refinement held;
     held.start = at(x);
+    held.compares = true;
     held.predicted = Prediction::withCovariance(held.start, 1e-10 * Matrix6::Identity(), false);
     return Matcher(mapped.config.matcher)
         .refine(mapped.builder.matchMap(), mapped.sample, held)

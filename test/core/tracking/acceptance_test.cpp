@@ -19,7 +19,8 @@ MatchRequest limitsAfter(int scans, uint64_t lost, bool blind, double step_sigma
     acceptance.addBlocked(0.0);
   }
   MatchRequest request;
-  acceptance.setLimits(lost, blind, step_sigma, request);
+  request.guess.step_sigma = step_sigma;
+  acceptance.setLimits(lost, blind, request);
   return request;
 }
 
