@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/matching/correspondences.hpp"
+#include "core/matching/open_directions.hpp"
 #include "edgevox/matching/free_space.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "edgevox/statistics.hpp"
@@ -36,7 +37,6 @@ constexpr double kAlike = 0.98;           // hit ratio of another answer, of the
 constexpr double kSameTranslation = 0.5;  // within which two matches are one answer [m]
 constexpr double kSameRotation = 5.0 * M_PI / 180.0;  // the same [rad]
 constexpr double kSameStart = 0.25;                   // of these, of starts that lead to one match
-constexpr double kDegenerate = 0.0015;                // mean square across what is matched, at most
 constexpr double kInflation = 6.0;  // the inverse information underestimates the scatter
 constexpr double kLeastInformation = kInflation / (1.0 * 1.0);  // of a pose: 1 m, 1 rad
 constexpr double kLargestMove = 10.0;                           // of one step [m, rad]
@@ -138,56 +138,7 @@ Move difference(const Pose& to, const Pose& from) {
   return move;
 }
 
-/// The directions that the geometry around leaves open, where a rotation is as long as the way of a
-/// point at `range`.
-class OpenDirections {
- public:
-  OpenDirections(const Matrix6& geometry, double range) : metres_(Vector6::Ones()) {
-    metres_.tail<3>().setConstant(1.0 / range);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(geometry);
-    degeneracy_.weakest = solver.eigenvectors().col(0);
-    for (int i = 0; i < 6 && !(solver.eigenvalues()[i] > kDegenerate); ++i) {
-      const Vector6 v = solver.eigenvectors().col(i);
-      closed_ -= v * v.transpose();
-      ++degeneracy_.directions;
-    }
-  }
-
-  const Degeneracy& degeneracy() const { return degeneracy_; }
-
-  /// The equations without what they say of the open directions.
-  NormalEquations without(const NormalEquations& equations) const {
-    if (degeneracy_.directions == 0) return equations;
-    const Matrix6 kept = inUnits(closed_);
-    NormalEquations rest = equations;
-    rest.h = kept * equations.h * kept.transpose();
-    rest.b = kept * equations.b;
-    return rest;
-  }
-  /// What an information says of the open directions.
-  Matrix6 within(const Matrix6& information) const {
-    const Matrix6 kept = inUnits(Matrix6::Identity() - closed_);
-    return kept * information * kept.transpose();
-  }
-
- private:
-  Matrix6 inUnits(const Matrix6& projection) const {
-    return metres_.cwiseInverse().asDiagonal() * projection * metres_.asDiagonal();
-  }
-
-  Vector6 metres_;  // of the unit of each component
-  Matrix6 closed_ = Matrix6::Identity();
-  Degeneracy degeneracy_;
-};
-
-/// See MatchResult::agreement.
-double agreementOf(const Matrix6& all, const Matrix6& fitting) {
-  const Matrix6 nothing = kDegenerate * Matrix6::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(fitting + nothing, all + nothing,
-                                                                 Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
-}
-
+/// `share`: of what is one answer.
 bool areWithin(double share, const Pose& a, const Pose& b) {
   const Pose between = a.inverse() * b;
   return between.translation().norm() < share * kSameTranslation &&
