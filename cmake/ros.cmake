@@ -32,6 +32,9 @@ add_library(${PROJECT_NAME}_nodelets SHARED ${EDGEVOX_NODE_SOURCES})
 target_include_directories(${PROJECT_NAME}_nodelets SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${PROJECT_NAME}_live ${PROJECT_NAME}_run)
 target_link_options(${PROJECT_NAME}_nodelets PRIVATE -Wl,--no-undefined)
+target_precompile_headers(${PROJECT_NAME}_nodelets PRIVATE
+  <functional> <map> <string> <Eigen/Geometry> <diagnostic_updater/diagnostic_updater.h>
+  <nodelet/nodelet.h> <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
 add_dependencies(${PROJECT_NAME}_nodelets ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_library(${PROJECT_NAME}_tools STATIC ${EDGEVOX_TOOLS_SOURCES})
@@ -46,6 +49,9 @@ if(EDGEVOX_BUILD_EVALUATION)
   target_include_directories(${PROJECT_NAME}_evaluation SYSTEM PRIVATE ${outer_include_dirs})
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
     ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree pcl_registration edgevox::tbb)
+  target_precompile_headers(${PROJECT_NAME}_evaluation PRIVATE
+    <algorithm> <filesystem> <functional> <iostream> <string> <boost/program_options.hpp>
+    <Eigen/Geometry> <pcl/point_cloud.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h>)
   set_source_files_properties(src/evaluation/pcl_registration.cpp PROPERTIES
     COMPILE_OPTIONS -Wno-array-bounds)  # in templates of PCL and Eigen, by gcc 12
 endif()

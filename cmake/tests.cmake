@@ -88,4 +88,9 @@ if(CATKIN_ENABLE_TESTING)
     edgevox_compile_test(${test_target} outer)
   endforeach()
   roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)
+
+  # They use the network and wait for one another: not beside other tests.
+  get_property(serial_tests DIRECTORY PROPERTY TESTS)
+  list(FILTER serial_tests INCLUDE REGEX "rostest")
+  set_tests_properties(${serial_tests} PROPERTIES RUN_SERIAL TRUE)
 endif()
