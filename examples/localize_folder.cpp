@@ -44,7 +44,7 @@ edgevox::Trajectory localize(const std::vector<fs::path>& clouds, const fs::path
             << " occupied voxels, " << map.head().edge_voxels << " of them edges, "
             << fs::file_size(file) << " bytes\n";
   edgevox::Pipeline pipeline(map.config());
-  pipeline.localizeIn(map.matchMap());  // the first cloud is looked for where the map began
+  pipeline.localizeIn(map.matchMap());  // the first cloud is looked for everywhere
   edgevox::Trajectory trajectory;
   for (size_t i = 1; i < clouds.size(); i += 2) {
     const std::vector<uint8_t> bytes = kitti::contentOf(clouds[i]);

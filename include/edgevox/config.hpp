@@ -75,6 +75,18 @@ struct MatcherConfig {
   double relative_hit_ratio = 0.65;  ///< of an accepted match, of the running median
 };
 
+/// Of a search without a prediction.
+struct SearchConfig {
+  int points = 300;
+  double tilt = 0.0;           ///< of the sensor from what is known of it [deg]
+  double min_evidence = 0.75;  ///< share of the points that fit, see evidenceOf()
+  double margin = 0.03;        ///< of the evidence, by which the best pose must exceed others
+};
+
+struct LocalizerConfig {
+  int search_after = 10;  ///< lost scans in a row, 0: never
+};
+
 /// What to do with the map when the clock has jumped back.
 enum class AfterClockJump { kKeepMap, kClearMap };
 
@@ -88,6 +100,7 @@ struct MapperConfig {
   double clock_leap = 3600.0;  ///< a stamp later by more must be confirmed by a second one [s]
   AfterClockJump after_clock_jump = AfterClockJump::kKeepMap;
   int edge_window = 10;  ///< scans by whose occupancy the edges of the last one are told
+  int search_after = 0;  ///< lost scans in a row, until the whole map is searched; 0: never
 };
 
 struct Config {
@@ -97,7 +110,9 @@ struct Config {
   EdgeConfig edges;
   MapConfig map;
   MatcherConfig matcher;
+  SearchConfig search;
   MapperConfig mapper;
+  LocalizerConfig localizer;
 };
 
 /// The parameters of the algorithms, valid as long as `config`.

@@ -92,6 +92,17 @@ std::vector<Parameter> parametersOf(Config& c) {
        "share of a scan that must land in occupied voxels, before there is a history"},
       {"matcher/relative_hit_ratio", &c.matcher.relative_hit_ratio, 0, 1, "",
        "the same, of the running median"},
+      {"search/points", &c.search.points, 50, kMaxCount, "",
+       "points of a scan in a search of the whole map"},
+      {"search/tilt", &c.search.tilt, 0, 180, "deg",
+       "by which the sensor may be tilted against the odometry or its mounting; a search takes "
+       "longer with its square"},
+      {"search/min_evidence", &c.search.min_evidence, 0.1, 1, "",
+       "least share of a scan that fits where a search has found it, but for the lines of sight "
+       "that would pass through walls"},
+      {"search/margin", &c.search.margin, 0, 1, "",
+       "of the evidence, by which the best pose must exceed all others; else the search is "
+       "ambiguous"},
       {"mapper/fallback_hit_ratio", &c.mapper.fallback_hit_ratio, 0, 1, "",
        "of the running median; below it a scan is aligned to all voxels"},
       {"mapper/fallback_sigma", &c.mapper.fallback_sigma, 1, 1000, "",
@@ -116,6 +127,10 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"mapper/edge_window", &c.mapper.edge_window, 1, 100, "",
        "scans, the last one among them, by which the edges of the last one are told on "
        "`scan_edges`"},
+      {"mapper/search_after", &c.mapper.search_after, 0, kMaxCount, "",
+       "lost scans in a row, after which the sensor is looked for in the whole map; 0: never"},
+      {"localizer/search_after", &c.localizer.search_after, 0, kMaxCount, "",
+       "the same, of a sensor that is localized in a saved map"},
   };
 }
 

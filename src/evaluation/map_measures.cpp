@@ -72,7 +72,7 @@ Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
     sample.push_back(probe.scan.voxels[position].centroid.cast<double>());
   }
   const double usual =
-      Matcher::hitRatio(map, sample, matcher.refinePoints(sample), probe.T_map_sensor);
+      Matcher::hits(map, sample, matcher.refinePoints(sample), probe.T_map_sensor).ratio;
   Acceptance acceptance(config, MapperConfig{});
   acceptance.addHitRatio(usual);
   acceptance.addBlocked(blockedShare(map, sample, kLinesOfSight, probe.T_map_sensor));

@@ -2,7 +2,10 @@
 #include "tools/map_bag_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <sstream>
 
 #include "tools/config_file.hpp"
 
@@ -37,6 +40,9 @@ po::options_description describe() {
   add("map", po::value<Text>(), "a full map file: mapping goes on where it was saved");
   add("localize", po::value<Text>(),
       "a map file: the clouds are located in it, it stays as it is, and no map is written");
+  add("start", po::value<Text>(),
+      "x,y,z,yaw [m, degrees], with --localize: about where the sensor is in the map at first "
+      "(default: it is looked for everywhere)");
   add("full", "save map.edgevox with all that mapping needs to go on (see --map)");
   add("occupied", "also write map_occupied.ply with all occupied voxels");
   return description;
@@ -58,6 +64,22 @@ CloudRange rangeOf(const std::string& text) {
   return range;
 }
 
+/// Of x,y,z,yaw.
+Pose startOf(const std::string& text) {
+  std::array<double, 4> values{};
+  std::istringstream stream(text);
+  char comma = ',';
+  for (size_t i = 0; i < values.size(); ++i) {
+    if ((i > 0 && !(stream >> comma)) || comma != ',' || !(stream >> values[i])) {
+      throw UsageError("--start needs x,y,z,yaw, not '" + text + "'");
+    }
+  }
+  if (!(stream >> std::ws).eof()) throw UsageError("--start needs x,y,z,yaw, not '" + text + "'");
+  const double yaw = values[3] * M_PI / 180.0;
+  return Eigen::Translation3d(values[0], values[1], values[2]) *
+         Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+}
+
 MapBagOptions optionsOf(const po::variables_map& given) {
   MapBagOptions options;
   options.bag = textOf(given, "bag");
@@ -68,6 +90,7 @@ MapBagOptions optionsOf(const po::variables_map& given) {
   options.frames = {textOf(given, "base-frame"), textOf(given, "odom-frame")};
   options.map = textOf(given, "map");
   options.localize = textOf(given, "localize");
+  if (given.count("start") > 0) options.start = startOf(textOf(given, "start"));
   options.full = given.count("full") > 0;
   options.write_occupied = given.count("occupied") > 0;
   options.stride = countOf(given, "stride", 1);
@@ -81,6 +104,9 @@ MapBagOptions optionsOf(const po::variables_map& given) {
   if (options.bag.empty()) throw UsageError("name the bag to map: map_bag BAG --output FOLDER");
   if (!options.map.empty() && !options.localize.empty()) {
     throw UsageError("--map goes on with a map, --localize leaves it as it is: choose one");
+  }
+  if (options.start && options.localize.empty()) {
+    throw UsageError("--start tells where to look in the map of --localize");
   }
   if (options.output.empty()) throw UsageError("name a folder for the results: --output FOLDER");
   return options;

@@ -31,7 +31,9 @@ struct MapBagOptions {
   std::vector<CloudRange> skipped;
   std::string map;       ///< a full map file to go on with; empty: none
   std::string localize;  ///< a map file to locate the clouds in; empty: none
-  bool full = false;     ///< save a full map file, not a compact one
+  /// Where the first cloud is looked for: the sensor in the map; none: everywhere.
+  std::optional<Pose> start;
+  bool full = false;  ///< save a full map file, not a compact one
   bool write_occupied = false;
 };
 

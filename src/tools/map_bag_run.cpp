@@ -106,7 +106,7 @@ MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
   readTransforms(bag, transforms, console);
   CloudMapping mapping(config, SensorFrames(transforms.buffer(), options.frames), console);
   if (!options.map.empty()) map->restore(mapping.pipeline().mapper());
-  if (!options.localize.empty()) mapping.pipeline().localizeIn(map->matchMap());
+  if (!options.localize.empty()) mapping.pipeline().localizeIn(map->matchMap(), options.start);
   map.reset();
   mapClouds(bag, options, console, mapping);
 

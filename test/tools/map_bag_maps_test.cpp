@@ -69,6 +69,23 @@ TEST_F(MapBagMaps, cloudsAreLocatedInAMapThatStays) {
   EXPECT_FALSE(fs::exists(folder_ / "located" / "map.edgevox"));
 }
 
+TEST_F(MapBagMaps, theFirstCloudIsLookedForWhereTheOptionTells) {
+  run(optionsFor("mapped"));
+  constexpr int kSkipped = kSweeps / 2;
+  const Trajectory mapped = readTum(folder_ / "mapped" / "trajectory.tum");
+  const Eigen::Vector3d at = mapped.at(kSkipped).pose.translation();
+  for (const double off : {0.8, 500.0}) {
+    MapBagOptions options = optionsFor("located");
+    options.localize = fileOf("mapped");
+    options.reference = (folder_ / "mapped" / "trajectory.tum").string();
+    options.skipped = {{0, kSkipped - 1}};
+    options.start = Pose(Eigen::Translation3d(at.x() + off, at.y(), at.z()));
+    const YAML::Node summary = run(options);
+    EXPECT_EQ(summary["tracked"].as<int>(), kSweeps - kSkipped);
+    EXPECT_LT(summary["ape_rmse_m"].as<double>(), 0.03);  // the first one not deskewed
+  }
+}
+
 TEST_F(MapBagMaps, theParametersAreThoseOfTheFile) {
   MapBagOptions first = optionsFor("first");
   first.full = true;

@@ -77,6 +77,21 @@ TEST(MapBagOptions, allGiven) {
   EXPECT_EQ(used, (std::vector<size_t>{0, 6, 12, 15}));
 }
 
+TEST(MapBagOptions, tellWhereToLookInAMap) {
+  const auto none = parseMapBagOptions({"run.bag", "-o", "out", "--localize", "m.edgevox"});
+  EXPECT_FALSE(none->start);
+  const auto given = parseMapBagOptions(
+      {"run.bag", "-o", "out", "--localize", "m.edgevox", "--start=-1.5,2,0.25,90"});
+  ASSERT_TRUE(given->start);
+  EXPECT_TRUE(given->start->translation().isApprox(Eigen::Vector3d(-1.5, 2, 0.25)));
+  EXPECT_TRUE(given->start->linear().col(0).isApprox(Eigen::Vector3d::UnitY()));
+  for (const std::string text : {"1,2,3", "1,2,3,4,5", "1,2,x,4", "1 2 3 4"}) {
+    expectError({"run.bag", "-o", "out", "--localize", "m.edgevox", "--start=" + text},
+                "x,y,z,yaw");
+  }
+  expectError({"run.bag", "-o", "out", "--start=1,2,3,4"}, "--localize");
+}
+
 TEST(MapBagOptions, settingsOverrideTheFile) {
   MapBagOptions options;
   options.config = "outdoor";

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <utility>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "edgevox/config.hpp"
 #include "edgevox/map/match_map.hpp"
+#include "edgevox/matching/global_search.hpp"
+#include "edgevox/ring_buffer.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "edgevox/tracking/scan_result.hpp"
@@ -12,21 +16,56 @@
 
 namespace edgevox {
 
-/// Finds where scans were taken in a map that stays as it is.
+/// Finds where scans were taken in a map that stays as it is: looks for the sensor, near a pose or
+/// everywhere, follows it, and looks for it again when it is lost for long. Where several poses fit
+/// alike, all are followed until one is left.
 class Localizer {
  public:
-  /// The first scan is looked for around `T_map_start`.
-  Localizer(const Config& config, MatchMap map, const Pose& T_map_start = Pose::Identity(),
-            Clock clock = Clock::kProcessCpu);
+  /// The first scan is looked for everywhere.
+  Localizer(const Config& config, MatchMap map, Clock clock = Clock::kProcessCpu);
 
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
 
+  /// The next scan is looked for near this pose, and if it is not there, everywhere.
+  void lookNear(const Pose& T_map_sensor);
+  /// The next scan is looked for everywhere.
+  void lookEverywhere();
+  bool isLooking() const { return looks_; }
+
   const MatchMap& map() const { return map_; }
+  /// What the last search has found; while poses are compared, these.
+  const SearchResult& lastSearch() const { return last_search_; }
+  /// For searches to come; what it points to must outlive them.
+  void setControl(const SearchControl& control) { control_ = control; }
 
  private:
+  static constexpr size_t kWindow = 5;  // scans by which poses are compared
+
+  /// The sensor, if it is at one of several poses that fit alike.
+  struct Hypothesis {
+    Tracker tracker;
+    ScanResult result;  // of the last scan
+    RingBuffer<double> evidence{kWindow};
+
+    double meanEvidence() const;
+  };
+
+  ScanResult look(const VoxelScan& scan, const ScanPrior& prior);
+  ScanResult search(const VoxelScan& scan, const ScanPrior& prior,
+                    const std::optional<SearchRegion::Around>& around);
+  ScanResult compare(const VoxelScan& scan, const ScanPrior& prior);
+  void follow(const VoxelScan& scan, const ScanPrior& prior, Hypothesis& hypothesis) const;
+
+  Config config_;
   Clock clock_;
   Tracker tracker_;
   MatchMap map_;
+  GlobalSearch search_;
+  SearchControl control_;
+  SearchResult last_search_;
+  bool looks_ = true;
+  std::optional<SearchRegion::Around> around_;  // where it looks first
+  std::vector<Hypothesis> hypotheses_;
 };
 
 }  // namespace edgevox

@@ -49,9 +49,10 @@ class Mapper {
  private:
   void clockJumped();
   ScanResult trackInMap(const VoxelScan& scan, const ScanPrior& prior);
+  ScanResult searchInMap(const VoxelScan& scan, const ScanPrior& prior, const ScanResult& lost);
   bool isContradicted() const;
 
-  AfterClockJump after_clock_jump_;
+  Config config_;
   Clock clock_;
   Tracker tracker_;
   MapBuilder map_;

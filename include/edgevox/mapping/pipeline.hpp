@@ -33,8 +33,8 @@ class Pipeline {
   explicit Pipeline(const Config& config, Clock clock = Clock::kProcessCpu);
 
   /// From now on scans are located in `map`, which was built with the same voxel size, and not
-  /// mapped; the first one is looked for around `T_map_start`.
-  void localizeIn(MatchMap map, const Pose& T_map_start = Pose::Identity());
+  /// mapped; the first one is looked for near `T_map_start`, else everywhere.
+  void localizeIn(MatchMap map, const std::optional<Pose>& T_map_start = std::nullopt);
   bool isLocalizing() const { return localizer_.has_value(); }
 
   PipelineResult process(const CloudView& cloud, const ScanPrior& prior = {});

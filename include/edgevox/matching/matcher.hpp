@@ -78,7 +78,8 @@ struct Degeneracy {
 
 struct MatchResult {
   Pose T_map_sensor = Pose::Identity();
-  double hit_ratio = 0.0;           ///< see Matcher::hitRatio
+  double hit_ratio = 0.0;           ///< see Hits
+  double hit_share = 0.0;           ///< the same
   double blocked = 0.0;             ///< see blockedShare()
   double required_hit_ratio = 0.0;  ///< as far from the guess as it is
   double most_blocked = 1.0;        ///< the same
@@ -104,6 +105,14 @@ struct MatchResult {
 inline bool isDoubtful(const MatchRequest& request, const MatchResult& match) {
   return request.doubtful && match.hit_ratio < request.trusted_hit_ratio;
 }
+
+/// The share of a scan's points that lie in occupied voxels.
+struct Hits {
+  double share = 0.0;  ///< of all: the rest is new or has changed
+  /// Of those in occupied voxels eight times the finest, as points of a place not mapped yet tell
+  /// nothing; if these are less than a quarter of all, it is that of the quarter.
+  double ratio = 0.0;
+};
 
 /// Aligns a scan to an occupied voxel map: discrete search from coarse to fine (Ryde and Hu
 /// 2010), then robust Gauss-Newton from points to voxel Gaussians; verified by the hit ratio.
@@ -142,11 +151,9 @@ class Matcher {
   /// grid's range.
   MatchResult refine(const MatchMap& map, const ScanSample& sample,
                      const Refinement& refinement) const;
-  /// The fraction in occupied voxels of level 1 of those of the first `points` of a sample that are
-  /// in occupied voxels eight times the finest: points of a place not mapped yet tell nothing. If
-  /// these are less than a quarter of `points`, it is the fraction of that quarter.
-  static double hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
-                         const Pose& T_map_sensor);
+  /// What of the first `points` of a sample is in occupied voxels of level 1.
+  static Hits hits(const MatchMap& map, const ScanSample& sample, size_t points,
+                   const Pose& T_map_sensor);
 
  private:
   Pose search(const MatchMap& map, const ScanSample& sample, size_t points, const Pose& guess,

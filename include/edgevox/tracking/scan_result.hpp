@@ -32,6 +32,7 @@ struct ScanResult {
   Matrix6 covariance = Matrix6::Zero();
   Degeneracy degeneracy;  ///< what of the pose is only predicted
   double hit_ratio = 0.0;
+  double hit_share = 0.0;  ///< of its points in occupied voxels: the rest is new or has changed
   double required_hit_ratio = 0.0;
   double blocked = 0.0;              ///< share of lines of sight that would pass through walls
   double most_blocked = 0.0;         ///< with which it may be located

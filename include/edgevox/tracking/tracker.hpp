@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include "edgevox/config.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/match_map.hpp"
+#include "edgevox/matching/global_search.hpp"
 #include "edgevox/matching/matcher.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/tracking/acceptance.hpp"
@@ -43,8 +45,16 @@ class Tracker {
   /// All of the result but its times and `clock_jumped`.
   ScanResult track(const VoxelScan& scan, const ScanPrior& prior, const TrackedMap& tracked);
 
+  /// Looks for the scan without a prediction; by its prior it is known where up is. Changes
+  /// nothing: see setPose().
+  SearchResult search(const VoxelScan& scan, const ScanPrior& prior, const GlobalSearch& search,
+                      const std::optional<SearchRegion::Around>& around,
+                      const SearchControl& control) const;
+
   /// The result of a scan that is refused for its stamp.
   ScanResult stale(const VoxelScan& scan, bool ahead) const;
+  /// The result of a scan that is not located.
+  ScanResult notLocated(const VoxelScan& scan, ScanStatus status) const;
 
   /// The centroids of the scan that was located last, deskewed, in the map frame [m].
   std::vector<Eigen::Vector3d> placed(const VoxelScan& scan) const;
@@ -54,7 +64,7 @@ class Tracker {
 
   uint64_t lostInARow() const { return lost_in_a_row_; }
 
-  /// The sensor is here; how it moves is not known.
+  /// The sensor is here, and not lost any more; how it moves is not known.
   void setPose(const Pose& T_map_sensor);
   /// Makes the tracker as new.
   void reset();

@@ -11,7 +11,7 @@ constexpr uint32_t kYoung = 3;  // scans, from which on two have confirmed the f
 }  // namespace
 
 Mapper::Mapper(const Config& config, Clock clock)
-    : after_clock_jump_(config.mapper.after_clock_jump),
+    : config_(config),
       clock_(clock),
       tracker_(config),
       map_(config.voxel_size, config.map, config.edges, config.threads, config.voxelizer.max_range),
@@ -39,6 +39,11 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
     result.odometry_jumped = odometry_jumped;
     result.begun_anew = true;
   }
+  const auto search_after = static_cast<uint64_t>(config_.mapper.search_after);
+  const uint64_t lost = tracker_.lostInARow();
+  if (search_after > 0 && lost > 0 && lost % search_after == 0) {
+    result = searchInMap(scan, prior, result);
+  }
   result.clock_jumped = clock_jumped;
   result.times.match = static_cast<float>(timer.lap());
   return result;
@@ -49,6 +54,19 @@ ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
       scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
 }
 
+/// Of a sensor that is lost for long.
+ScanResult Mapper::searchInMap(const VoxelScan& scan, const ScanPrior& prior,
+                               const ScanResult& lost) {
+  const SearchResult found =
+      tracker_.search(scan, prior, GlobalSearch(map_.matchMap(), config_), std::nullopt, {});
+  if (found.outcome != SearchOutcome::kFound) return lost;
+  Tracker before = tracker_;
+  tracker_.setPose(found.answers.front().T_map_sensor);
+  const ScanResult result = trackInMap(scan, prior);
+  if (!result.located()) tracker_ = std::move(before);
+  return result.located() ? result : lost;
+}
+
 /// Whether more scans speak against a young map than for it: its first ones were bad, not those
 /// that do not fit.
 bool Mapper::isContradicted() const {
@@ -56,7 +74,7 @@ bool Mapper::isContradicted() const {
 }
 
 void Mapper::clockJumped() {
-  if (after_clock_jump_ == AfterClockJump::kClearMap) {
+  if (config_.mapper.after_clock_jump == AfterClockJump::kClearMap) {
     reset();
   } else {
     recent_edges_.clear();

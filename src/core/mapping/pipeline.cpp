@@ -21,8 +21,9 @@ Pipeline::Pipeline(const Config& config, Clock clock)
       density_monitor_(config.edges, config.threads, DensityMonitor::kEveryScan),
       mapper_(config, clock) {}
 
-void Pipeline::localizeIn(MatchMap map, const Pose& T_map_start) {
-  localizer_.emplace(config_, std::move(map), T_map_start, clock_);
+void Pipeline::localizeIn(MatchMap map, const std::optional<Pose>& T_map_start) {
+  localizer_.emplace(config_, std::move(map), clock_);
+  if (T_map_start) localizer_->lookNear(*T_map_start);
 }
 
 PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior) {

@@ -249,7 +249,9 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
   const double angle = rotationAngle(moved);
   const bool far = distance > request.far_translation || angle > request.far_rotation;
   result.required_hit_ratio = far ? request.far_hit_ratio : request.required_hit_ratio;
-  result.hit_ratio = hitRatio(map, sample, refinePoints(sample), result.T_map_sensor);
+  const Hits found = hits(map, sample, refinePoints(sample), result.T_map_sensor);
+  result.hit_ratio = found.ratio;
+  result.hit_share = found.share;
   const bool trusted = !far && result.hit_ratio >= request.trusted_hit_ratio;
   result.most_blocked = trusted ? request.most_blocked_near : request.most_blocked;
   result.blocked = blockedShare(map, sample, kLinesOfSight, result.T_map_sensor);
@@ -406,15 +408,15 @@ Pose Matcher::climbAsPublished(const MatchMap& map, const ScanSample& sample,
   return pose;
 }
 
-double Matcher::hitRatio(const MatchMap& map, const ScanSample& sample, size_t points,
-                         const Pose& T_map_sensor) {
+Hits Matcher::hits(const MatchMap& map, const ScanSample& sample, size_t points,
+                   const Pose& T_map_sensor) {
   const size_t count = prefix(sample, points);
-  if (count == 0) return 0.0;
+  if (count == 0) return {};
+  const auto all = static_cast<double>(count);
   const int known_level = std::min(kKnownLevel, map.levels() - 1);
   const int hits = score(map, 1, sample, count, T_map_sensor);
   const int known = score(map, known_level, sample, count, T_map_sensor);
-  const double least = kLeastKnown * static_cast<double>(count);
-  return static_cast<double>(hits) / std::max(static_cast<double>(known), least);
+  return {hits / all, hits / std::max(static_cast<double>(known), kLeastKnown * all)};
 }
 
 double worstSigma(const Matrix6& information, double range) {

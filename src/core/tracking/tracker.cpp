@@ -68,10 +68,7 @@ ClockWatch::Order Tracker::checkStamp(double stamp) {
 
 ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
                           const TrackedMap& tracked) {
-  ScanResult result;
-  result.number = scan.number;
-  result.stamp = scan.stamp;
-  result.T_map_sensor = T_map_sensor();
+  ScanResult result = notLocated(scan, ScanStatus::kLost);
   result.odometry_jumped = !odometry_watch_.add(scan.stamp, prior.T_odom_sensor);
   const auto refused = [&](ScanStatus status) {
     result.status = status;
@@ -100,13 +97,31 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
 }
 
 ScanResult Tracker::stale(const VoxelScan& scan, bool ahead) const {
+  ScanResult result = notLocated(scan, ScanStatus::kStale);
+  result.ahead = ahead;
+  return result;
+}
+
+ScanResult Tracker::notLocated(const VoxelScan& scan, ScanStatus status) const {
   ScanResult result;
-  result.status = ScanStatus::kStale;
+  result.status = status;
   result.number = scan.number;
   result.stamp = scan.stamp;
   result.T_map_sensor = T_map_sensor();
-  result.ahead = ahead;
   return result;
+}
+
+SearchResult Tracker::search(const VoxelScan& scan, const ScanPrior& prior,
+                             const GlobalSearch& search,
+                             const std::optional<SearchRegion::Around>& around,
+                             const SearchControl& control) const {
+  if (isTooLarge(scan) || scan.voxels.size() < kFewestVoxels) return {};
+  SearchRegion region;
+  region.R_level_sensor = prior.T_odom_sensor.value_or(prior.T_map_first).linear();
+  region.tilt = config_.search.tilt * kRadians;
+  region.around = around;
+  const auto positions = sampleVoxels(scan, matcher_.sampleSize());
+  return search.search(deskewed(scan, positions, {sweepTime(scan), Twist()}), region, control);
 }
 
 bool Tracker::isTooLarge(const VoxelScan& scan) const {
@@ -209,6 +224,7 @@ MatchResult Tracker::locate(const ScanSample& sample, const MatchRequest& reques
         match.refusal == Refusal::kAmbiguous ? ScanStatus::kAmbiguous : ScanStatus::kLost;
   }
   result.hit_ratio = match.hit_ratio;
+  result.hit_share = match.hit_share;
   result.required_hit_ratio = match.required_hit_ratio;
   result.blocked = match.blocked;
   result.most_blocked = match.most_blocked;
@@ -232,6 +248,7 @@ void Tracker::setPose(const Pose& T_map_sensor) {
   odometry_watch_.forget();
   motion_.set(T_map_sensor);
   covariance_.setZero();
+  lost_in_a_row_ = 0;
 }
 
 void Tracker::forgetMotion() {

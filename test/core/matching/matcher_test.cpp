@@ -201,25 +201,25 @@ TEST(HitRatio, IsThatOfANaiveCount) {
     const Pose pose = displaced(room.truth, 0.25 * i, 2.0 * i, random);
     const double expected = naiveHitRatio(room.map, room.sample, pose);
     // A point may lie so near to a voxel's face that rounding decides.
-    EXPECT_NEAR(expected, Matcher::hitRatio(room.map, room.sample, room.sample.size(), pose),
+    EXPECT_NEAR(expected, Matcher::hits(room.map, room.sample, room.sample.size(), pose).ratio,
                 2.5 / 3000);
     least = std::min(least, expected);
   }
-  EXPECT_GT(Matcher::hitRatio(room.map, room.sample, room.sample.size(), room.truth), 0.9);
+  EXPECT_GT(Matcher::hits(room.map, room.sample, room.sample.size(), room.truth).ratio, 0.9);
   EXPECT_LT(least, 0.5);
 }
 
 TEST(HitRatio, TellsNothingOfUnknownSpace) {
   const MappedRoom& room = mappedRoom();
   const ScanSample known(room.sample.begin(), room.sample.begin() + 500);
-  const double ratio = Matcher::hitRatio(room.map, known, known.size(), room.truth);
+  const double ratio = Matcher::hits(room.map, known, known.size(), room.truth).ratio;
   ScanSample partly = known;
   for (int i = 0; i < 1000; ++i) partly.push_back({100.0 + i, 0, 0});
-  EXPECT_DOUBLE_EQ(ratio, Matcher::hitRatio(room.map, partly, partly.size(), room.truth));
+  EXPECT_DOUBLE_EQ(ratio, Matcher::hits(room.map, partly, partly.size(), room.truth).ratio);
   for (int i = 0; i < 3500; ++i) partly.push_back({0, 100.0 + i, 0});
-  EXPECT_LT(Matcher::hitRatio(room.map, partly, partly.size(), room.truth),
+  EXPECT_LT(Matcher::hits(room.map, partly, partly.size(), room.truth).ratio,
             0.45);  // a tenth of a quarter
-  EXPECT_EQ(0.0, Matcher::hitRatio(room.map, {}, 3000, room.truth));
+  EXPECT_EQ(0.0, Matcher::hits(room.map, {}, 3000, room.truth).ratio);
 }
 
 TEST(Restarts, FindAPoseFarFromTheGuess) {
@@ -256,7 +256,7 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
         building, roomSensor(), [&](double) { return path.poseAt(time); }, 0.0, 1);
     MatchRequest request;
     request.guess.T_map_sensor = room.truth;
-    const double usual = Matcher::hitRatio(room.map, room.sample, room.sample.size(), room.truth);
+    const double usual = Matcher::hits(room.map, room.sample, room.sample.size(), room.truth).ratio;
     request.required_hit_ratio = 0.75 * usual;
     request.far_hit_ratio = 0.95 * usual;
     request.all_voxels = true;
