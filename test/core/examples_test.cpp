@@ -49,8 +49,7 @@ std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 Outcome configure(const fs::path& source, const fs::path& build, const std::string& options) {
   return execute(EDGEVOX_CMAKE " -S " + quoted(source) + " -B " + quoted(build) +
-                 " -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG'"
-                 " -DCMAKE_CXX_COMPILER='" EDGEVOX_COMPILER
+                 " -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER='" EDGEVOX_COMPILER
                  "' -DCMAKE_CXX_COMPILER_LAUNCHER='" EDGEVOX_COMPILER_LAUNCHER "' " +
                  options);
 }
