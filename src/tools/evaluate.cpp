@@ -13,7 +13,9 @@ int run(const edgevox::Arguments& arguments) {
        {"edges", edgevox::evaluateEdges, "the extraction of edges from scans and into the map"},
        {"map", edgevox::evaluateMap, "error and capture against the size of the map"},
        {"trust", edgevox::evaluateTrust,
-        "how many scans are right, wrong and lost, in many recordings"}},
+        "how many scans are right, wrong and lost, in many recordings"},
+       {"localize", edgevox::evaluateLocalize,
+        "how many scans are found in a map without a guess"}},
       arguments);
 }
 

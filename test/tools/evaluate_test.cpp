@@ -130,6 +130,32 @@ TEST_F(EvaluateTest, countsRightWrongAndLostScans) {
   EXPECT_NE(drawn, outcome.output.find("trust.png was not drawn") != std::string::npos);
 }
 
+TEST_F(EvaluateTest, looksForScansInAMapFile) {
+  writeBag(test::simulatedRun().clouds);
+  run();
+  const std::string map = (options_.output / "map.edgevox").string();
+  const auto out = folder_ / "localize";
+  const auto localize = [&](const std::filesystem::path& poses) {
+    return evaluateRun("localize " + map + " " + options_.bag + " --poses " + poses.string() +
+                       " --output " + out.string());
+  };
+  const Outcome outcome = localize(options_.output / "trajectory.tum");
+  ASSERT_EQ(0, outcome.exit_code) << outcome.output;
+  const std::string text = contentOf(out / "localize.md");
+  EXPECT_NE(std::string::npos, text.find("| 12 | 100.0 | 0.0 |")) << text;
+  EXPECT_NE(std::string::npos, outcome.output.find(text));
+  EXPECT_NE(std::string::npos, contentOf(out / "localize.csv").find(",right,1,"));
+  const bool drawn = std::filesystem::exists(out / "localize.png");
+  EXPECT_NE(drawn, outcome.output.find("localize.png was not drawn") != std::string::npos);
+
+  Trajectory shifted = readTum(options_.output / "trajectory.tum");
+  for (StampedPose& pose : shifted) pose.pose.translation().x() += 1.0;
+  writeTum(folder_ / "shifted.tum", shifted);
+  ASSERT_EQ(0, localize(folder_ / "shifted.tum").exit_code);
+  const std::string wrong = contentOf(out / "localize.md");
+  EXPECT_NE(std::string::npos, wrong.find("| 12 | 0.0 | 0.0 | 0.0 | 100.0 |")) << wrong;
+}
+
 TEST_F(EvaluateTest, countsScansOfABagAgainstItsReference) {
   writeBag(test::simulatedRun().clouds);
   Trajectory wrong = test::simulatedRun().truth;

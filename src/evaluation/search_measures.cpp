@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/search_measures.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "core/scan/scan_sample.hpp"
+#include "edgevox/io/number_text.hpp"
+#include "edgevox/scan/motion.hpp"
+#include "edgevox/scan/voxelizer.hpp"
+#include "edgevox/statistics.hpp"
+#include "evaluation/capture.hpp"
+#include "evaluation/placed_scan.hpp"
+#include "evaluation/share.hpp"
+
+namespace edgevox {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;  // in a radian
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Turns the sensor's axes into level ones, whatever its heading.
+Eigen::Matrix3d levelOf(const Pose& T_map_sensor) {
+  const Eigen::Matrix3d& rotation = T_map_sensor.linear();
+  return rotationOf({0.0, 0.0, -std::atan2(rotation(1, 0), rotation(0, 0))}) * rotation;
+}
+
+bool isRight(const Pose& truth, const Pose& found) {
+  const Pose off = truth.inverse() * found;
+  return off.translation().norm() < kFoundDistance && rotationAngle(off) * kDegrees < kFoundAngle;
+}
+
+SearchVerdict verdictOf(const SearchResult& result, const Pose& truth) {
+  if (result.outcome == SearchOutcome::kAmbiguous) return SearchVerdict::kAmbiguous;
+  if (result.outcome != SearchOutcome::kFound) return SearchVerdict::kNotFound;
+  return isRight(truth, result.answers.front().T_map_sensor) ? SearchVerdict::kRight
+                                                             : SearchVerdict::kWrong;
+}
+
+SearchTrial trialOf(const SearchResult& result, const Pose& truth) {
+  SearchTrial trial;
+  trial.T_map_sensor = truth;
+  trial.verdict = verdictOf(result, truth);
+  trial.distance = trial.angle = trial.evidence = trial.runner_up = trial.hit_share = kNaN;
+  if (result.answers.empty()) return trial;
+  const MatchResult& best = result.answers.front();
+  const Pose off = truth.inverse() * best.T_map_sensor;
+  trial.distance = off.translation().norm();
+  trial.angle = rotationAngle(off) * kDegrees;
+  trial.evidence = evidenceOf(best);
+  trial.hit_share = best.hit_share;
+  if (result.answers.size() > 1) trial.runner_up = evidenceOf(result.answers[1]);
+  for (const MatchResult& answer : result.answers) {
+    trial.among = trial.among || isRight(truth, answer.T_map_sensor);
+  }
+  return trial;
+}
+
+ScanSample sampleOf(const VoxelScan& scan, size_t count) {
+  ScanSample sample;
+  for (const size_t i : sampleVoxels(scan, count)) {
+    sample.push_back(scan.voxels[i].centroid.cast<double>());
+  }
+  return sample;
+}
+
+}  // namespace
+
+const char* toString(SearchVerdict verdict) {
+  constexpr std::array<const char*, kSearchVerdicts> kNames = {"right", "ambiguous", "not found",
+                                                               "wrong"};
+  return kNames[static_cast<size_t>(verdict)];
+}
+
+std::vector<SearchTrial> measureSearch(const MatchMap& map, const Recording& recording,
+                                       const SearchMeasureOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const GlobalSearch search(map, options.config);
+  const size_t points = Matcher(options.config.matcher).sampleSize();
+  Voxelizer voxelizer(options.config.voxelizer, options.config.voxel_size);
+  std::vector<SearchTrial> trials;
+  for (size_t i = 0; i < recording.scans.size(); ++i) {
+    const TruePose truth = [&](double time) {
+      return options.T_map_recording * recording.poseAt(i, time);
+    };
+    const VoxelScan scan = seenAtOnce(voxelizer.voxelize(recording.scans[i].view), truth);
+    SearchRegion region;
+    region.tilt = options.config.search.tilt / kDegrees;
+    if (!options.level) region.R_level_sensor = levelOf(truth(0.0));
+    const ScanSample sample = sampleOf(scan, points);
+    const auto start = Clock::now();
+    const SearchResult result = search.search(sample, region);
+    const std::chrono::duration<double> seconds = Clock::now() - start;
+    trials.push_back(trialOf(result, truth(0.0)));
+    trials.back().stamp = scan.stamp;
+    trials.back().seconds = seconds.count();
+  }
+  return trials;
+}
+
+Table searchTable(const std::vector<SearchTrial>& trials) {
+  Table table({{"stamp", "stamp"},
+               {"x", "x"},
+               {"y", "y"},
+               {"z", "z"},
+               {"verdict", "verdict"},
+               {"among", "among"},
+               {"distance_m", "distance"},
+               {"angle_deg", "angle"},
+               {"evidence", "evidence"},
+               {"runner_up", "runner-up"},
+               {"hit_share", "hit share"},
+               {"seconds", "seconds"}});
+  for (const SearchTrial& trial : trials) {
+    const Eigen::Vector3d position = trial.T_map_sensor.translation();
+    table.addRow();
+    table.set("stamp", trial.stamp);
+    table.set("x", position.x());
+    table.set("y", position.y());
+    table.set("z", position.z());
+    table.set("verdict", toString(trial.verdict));
+    table.set("among", trial.among ? 1.0 : 0.0);
+    table.set("distance_m", trial.distance);
+    table.set("angle_deg", trial.angle);
+    table.set("evidence", trial.evidence);
+    table.set("runner_up", trial.runner_up);
+    table.set("hit_share", trial.hit_share);
+    table.set("seconds", trial.seconds);
+  }
+  return table;
+}
+
+std::string searchMarkdown(const Recording& recording, const SearchMeasureOptions& options,
+                           const std::vector<SearchTrial>& trials) {
+  std::array<size_t, kSearchVerdicts> counts{};
+  size_t among = 0;
+  std::vector<double> distances;
+  std::vector<double> angles;
+  std::vector<double> seconds;
+  for (const SearchTrial& trial : trials) {
+    ++counts[static_cast<size_t>(trial.verdict)];
+    seconds.push_back(trial.seconds);
+    if (trial.verdict == SearchVerdict::kAmbiguous && trial.among) ++among;
+    if (trial.verdict != SearchVerdict::kRight) continue;
+    distances.push_back(trial.distance);
+    angles.push_back(trial.angle);
+  }
+  Table table({{"scans", "scans", 0},
+               {"right", "right [%]", 1},
+               {"ambiguous", "ambiguous [%]", 1},
+               {"among", "of these with the truth [%]", 1},
+               {"not_found", "not found [%]", 1},
+               {"wrong", "wrong [%]", 1},
+               {"distance", "distance, median [cm]", 1},
+               {"distance_p95", "p95", 1},
+               {"angle", "angle, median [deg]", 2},
+               {"seconds", "time, median [s]", 2},
+               {"seconds_p95", "p95", 2}});
+  const auto share = [&](SearchVerdict verdict) {
+    return 1e2 * shareOf(counts[static_cast<size_t>(verdict)], trials.size());
+  };
+  table.addRow();
+  table.set("scans", static_cast<double>(trials.size()));
+  table.set("right", share(SearchVerdict::kRight));
+  table.set("ambiguous", share(SearchVerdict::kAmbiguous));
+  table.set("among", 1e2 * shareOf(among, counts[static_cast<size_t>(SearchVerdict::kAmbiguous)]));
+  table.set("not_found", share(SearchVerdict::kNotFound));
+  table.set("wrong", share(SearchVerdict::kWrong));
+  table.set("distance", 1e2 * quantile(distances, 0.5));
+  table.set("distance_p95", 1e2 * quantile(distances, 0.95));
+  table.set("angle", quantile(angles, 0.5));
+  table.set("seconds", quantile(seconds, 0.5));
+  table.set("seconds_p95", quantile(seconds, 0.95));
+  return "# Scans found without a guess\n\nScans of " + recording.name + " in the map " +
+         options.map_name + ", configuration " + options.config_name +
+         ", poses: " + recording.source + ".\n\n" +
+         table.markdown({"scans", "right", "ambiguous", "among", "not_found", "wrong", "distance",
+                         "distance_p95", "angle", "seconds", "seconds_p95"},
+                        1) +
+         "\nEach scan is looked for alone in the whole map, " +
+         (options.level ? std::string("by a sensor taken as level")
+                        : std::string("by a sensor that is told where up is, as by an IMU")) +
+         ". Right: found, within " + shortText(kFoundDistance) + " m and " +
+         shortText(kFoundAngle) +
+         " degree of the truth; ambiguous: other poses fit as well; wrong: found elsewhere. "
+         "Distance and angle are those of the right ones; time is wall time on all processors. "
+         "The scans are deskewed by the true motion.\n";
+}
+
+}  // namespace edgevox
