@@ -98,8 +98,9 @@ std::vector<Parameter> parametersOf(Config& c) {
        "by which the sensor may be tilted against the odometry or its mounting; a search takes "
        "longer with its square"},
       {"search/min_evidence", &c.search.min_evidence, 0.1, 1, "",
-       "least share of a scan that fits where a search has found it, but for the lines of sight "
-       "that would pass through walls"},
+       "least share of a scan that fits where a search has found it, less half of that of the "
+       "lines "
+       "of sight that would pass through walls"},
       {"search/margin", &c.search.margin, 0, 1, "",
        "of the evidence, by which the best pose must exceed all others; else the search is "
        "ambiguous"},

@@ -47,10 +47,11 @@ enum class SearchOutcome {
 const char* toString(SearchOutcome outcome);
 
 /// How much speaks for a match, whether known before or not: the share of all points that lie in
-/// occupied voxels, but for that of the lines of sight that would pass through walls.
+/// occupied voxels, less half of that of the lines of sight that would pass through walls, as some
+/// of the walls are none.
 template <typename Match>
 double evidenceOf(const Match& match) {
-  return match.hit_share * (1.0 - match.blocked);
+  return match.hit_share * (1.0 - 0.5 * match.blocked);
 }
 
 /// The least evidence of a pose that cannot be told from the best one.
