@@ -99,8 +99,7 @@ std::vector<Parameter> parametersOf(Config& c) {
        "longer with its square"},
       {"search/min_evidence", &c.search.min_evidence, 0.1, 1, "",
        "least share of a scan that fits where a search has found it, less half of that of the "
-       "lines "
-       "of sight that would pass through walls"},
+       "lines of sight that would pass through walls"},
       {"search/margin", &c.search.margin, 0, 1, "",
        "of the evidence, by which the best pose must exceed all others; else the search is "
        "ambiguous"},

@@ -46,11 +46,9 @@ double threadMilliseconds() {
 }
 
 void count(const CapturedPose& found, const Pose& truth, CaptureCounts& counts) {
-  const Pose off = truth.inverse() * found.T_map_sensor;
   if (!found.accepted) {
     ++counts.refused;
-  } else if (off.translation().norm() < kFoundDistance &&
-             rotationAngle(off) < kFoundAngle * kDegree) {
+  } else if (isFound(truth, found.T_map_sensor)) {
     ++counts.right;
   } else {
     ++counts.wrong;
@@ -58,6 +56,11 @@ void count(const CapturedPose& found, const Pose& truth, CaptureCounts& counts) 
 }
 
 }  // namespace
+
+bool isFound(const Pose& truth, const Pose& pose) {
+  const Pose off = truth.inverse() * pose;
+  return off.translation().norm() < kFoundDistance && rotationAngle(off) < kFoundAngle * kDegree;
+}
 
 Disturbance disturbedBy(double distance, double angle) {
   return {sizeText(distance, angle), [=](const Pose& truth, sim::Random& random) {

@@ -17,6 +17,9 @@ namespace edgevox {
 constexpr double kFoundDistance = 0.1;  ///< of a pose that is found from the truth [m]
 constexpr double kFoundAngle = 1.0;     ///< the same [degrees]
 
+/// Whether a pose is so near the truth.
+bool isFound(const Pose& truth, const Pose& pose);
+
 /// A scan whose pose is to be found again.
 struct CaptureProbe {
   VoxelScan scan;                        ///< as seen at once

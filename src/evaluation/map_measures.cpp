@@ -67,10 +67,7 @@ Trajectory referenceOf(const Recording& recording) {
 Registration matcherRegistration(const MatchMap& map, const CaptureProbe& probe,
                                  const MatcherConfig& config) {
   const Matcher matcher(config);
-  ScanSample sample;
-  for (const size_t position : sampleVoxels(probe.scan, matcher.sampleSize())) {
-    sample.push_back(probe.scan.voxels[position].centroid.cast<double>());
-  }
+  const ScanSample sample = sampleCentroids(probe.scan, matcher.sampleSize());
   const double usual =
       Matcher::hits(map, sample, matcher.refinePoints(sample), probe.T_map_sensor).ratio;
   Acceptance acceptance(config, MapperConfig{});

@@ -27,15 +27,10 @@ Eigen::Matrix3d levelOf(const Pose& T_map_sensor) {
   return rotationOf({0.0, 0.0, -std::atan2(rotation(1, 0), rotation(0, 0))}) * rotation;
 }
 
-bool isRight(const Pose& truth, const Pose& found) {
-  const Pose off = truth.inverse() * found;
-  return off.translation().norm() < kFoundDistance && rotationAngle(off) * kDegrees < kFoundAngle;
-}
-
 SearchVerdict verdictOf(const SearchResult& result, const Pose& truth) {
   if (result.outcome == SearchOutcome::kAmbiguous) return SearchVerdict::kAmbiguous;
   if (result.outcome != SearchOutcome::kFound) return SearchVerdict::kNotFound;
-  return isRight(truth, result.answers.front().T_map_sensor) ? SearchVerdict::kRight
+  return isFound(truth, result.answers.front().T_map_sensor) ? SearchVerdict::kRight
                                                              : SearchVerdict::kWrong;
 }
 
@@ -53,17 +48,9 @@ SearchTrial trialOf(const SearchResult& result, const Pose& truth) {
   trial.hit_share = best.hit_share;
   if (result.answers.size() > 1) trial.runner_up = evidenceOf(result.answers[1]);
   for (const MatchResult& answer : result.answers) {
-    trial.among = trial.among || isRight(truth, answer.T_map_sensor);
+    trial.among = trial.among || isFound(truth, answer.T_map_sensor);
   }
   return trial;
-}
-
-ScanSample sampleOf(const VoxelScan& scan, size_t count) {
-  ScanSample sample;
-  for (const size_t i : sampleVoxels(scan, count)) {
-    sample.push_back(scan.voxels[i].centroid.cast<double>());
-  }
-  return sample;
 }
 
 }  // namespace
@@ -89,7 +76,7 @@ std::vector<SearchTrial> measureSearch(const MatchMap& map, const Recording& rec
     SearchRegion region;
     region.tilt = options.config.search.tilt / kDegrees;
     if (!options.level) region.R_level_sensor = levelOf(truth(0.0));
-    const ScanSample sample = sampleOf(scan, points);
+    const ScanSample sample = sampleCentroids(scan, points);
     const auto start = Clock::now();
     const SearchResult result = search.search(sample, region);
     const std::chrono::duration<double> seconds = Clock::now() - start;

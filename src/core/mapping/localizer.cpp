@@ -21,9 +21,7 @@ Localizer::Localizer(const Config& config, MatchMap map, Clock clock)
       clock_(clock),
       tracker_(config),
       map_(std::move(map)),
-      search_(map_, config) {
-  control_.threads = kAllProcessors;
-}
+      search_(map_, config) {}
 
 void Localizer::lookNear(const Pose& T_map_sensor) {
   lookEverywhere();

@@ -9,15 +9,6 @@
 #include "core/parallel.hpp"
 
 namespace edgevox {
-namespace {
-
-bool isWithin(const VoxelIndex& v, const VoxelIndex& first, const VoxelIndex& last) {
-  return v.x >= first.x && v.y >= first.y && v.z >= first.z && v.x <= last.x && v.y <= last.y &&
-         v.z <= last.z;
-}
-
-}  // namespace
-
 BranchAndBound::BranchAndBound(const ShiftPyramid& pyramid,
                                const std::vector<std::vector<VoxelIndex>>& points, double share,
                                int least, const SearchControl& control)
@@ -34,9 +25,9 @@ std::vector<SearchNode> BranchAndBound::roots() const {
     const int size = 1 << height;
     SearchNode node{0, height, rotation, {}};
     VoxelIndex& v = node.shift;
-    for (v.z = first_.z; v.z <= last_.z; v.z += size) {
-      for (v.y = first_.y; v.y <= last_.y; v.y += size) {
-        for (v.x = first_.x; v.x <= last_.x; v.x += size) {
+    for (v.z = shifts_.first.z; v.z <= shifts_.last.z; v.z += size) {
+      for (v.y = shifts_.first.y; v.y <= shifts_.last.y; v.y += size) {
+        for (v.x = shifts_.first.x; v.x <= shifts_.last.x; v.x += size) {
           node.bound = pyramid_.hits(height, points_[rotation], v, least_);
           if (node.bound >= least_) of_rotation[rotation].push_back(node);
         }
@@ -53,7 +44,7 @@ std::vector<SearchNode> BranchAndBound::roots() const {
 void BranchAndBound::descend(const SearchNode& node, std::vector<SearchNode>& leaves) {
   if (node.bound < threshold() || isCancelled()) return;
   if (node.height == 0) {
-    if (!isWithin(node.shift, first_, last_)) return;
+    if (!shifts_.holds(node.shift)) return;
     leaves.push_back(node);
     int most = most_.load();
     while (most < node.bound && !most_.compare_exchange_weak(most, node.bound)) {
@@ -65,18 +56,18 @@ void BranchAndBound::descend(const SearchNode& node, std::vector<SearchNode>& le
     SearchNode& child = children[static_cast<size_t>(i)];
     child = node;
     const int half = 1 << --child.height;
-    child.shift.x += (i & 1) * half;
-    child.shift.y += ((i >> 1) & 1) * half;
-    child.shift.z += ((i >> 2) & 1) * half;
+    const VoxelIndex corner = childOf({}, i);
+    child.shift.x += corner.x * half;
+    child.shift.y += corner.y * half;
+    child.shift.z += corner.z * half;
     child.bound = pyramid_.hits(child.height, points_[node.rotation], child.shift, threshold());
   }
   std::sort(children.begin(), children.end());
   for (const SearchNode& child : children) descend(child, leaves);
 }
 
-std::vector<SearchNode> BranchAndBound::find(const VoxelIndex& first, const VoxelIndex& last) {
-  first_ = first;
-  last_ = last;
+std::vector<SearchNode> BranchAndBound::find(const VoxelBox& shifts) {
+  shifts_ = shifts;
   const std::vector<SearchNode> roots = this->roots();
   if (roots.empty()) return {};
   std::vector<std::vector<SearchNode>> found(roots.size());

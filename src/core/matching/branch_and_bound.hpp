@@ -34,9 +34,9 @@ class BranchAndBound {
   BranchAndBound(const ShiftPyramid& pyramid, const std::vector<std::vector<VoxelIndex>>& points,
                  double share, int least, const SearchControl& control);
 
-  /// The translations in [first, last] with at least `share` of the most hits and `least`, by hits;
+  /// The translations in a box with at least `share` of the most hits and `least`, by hits;
   /// none if the search is cancelled.
-  std::vector<SearchNode> find(const VoxelIndex& first, const VoxelIndex& last);
+  std::vector<SearchNode> find(const VoxelBox& shifts);
 
  private:
   int threshold() const;
@@ -49,8 +49,7 @@ class BranchAndBound {
   double share_;
   int least_;
   SearchControl control_;
-  VoxelIndex first_;
-  VoxelIndex last_;
+  VoxelBox shifts_;
   std::atomic<int> most_{0};  // hits found so far
 };
 

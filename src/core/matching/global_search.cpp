@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/matching/branch_and_bound.hpp"
+#include "core/matching/one_answer.hpp"
 #include "core/matching/shift_pyramid.hpp"
 #include "core/parallel.hpp"
 #include "edgevox/scan/motion.hpp"
@@ -22,8 +23,6 @@ constexpr double kLeastShare = 0.8;               // of the evidence that is ask
 constexpr size_t kMostCandidates = 24;            // refined
 constexpr double kNear = 4.0;                     // of a better candidate [cell]
 constexpr double kNearTurn = 3.0;                 // the same [step of the grid]
-constexpr double kSameTranslation = 0.5;          // within which two matches are one answer [m]
-constexpr double kSameRotation = 5.0 * kRadians;  // the same [rad]
 constexpr double kOfMisfit = 0.35;                // of what does not fit, as a margin
 constexpr double kLongestMove = 8.0;              // of a refinement [cell]
 
@@ -53,19 +52,6 @@ std::vector<Eigen::Matrix3d> rotationsIn(const SearchRegion& region, double turn
     }
   }
   return rotations;
-}
-
-bool areNear(const Pose& a, const Pose& b, double distance, double angle) {
-  const Pose between = a.inverse() * b;
-  return between.translation().norm() < distance && rotationAngle(between) < angle;
-}
-
-VoxelIndex largest(const VoxelIndex& a, const VoxelIndex& b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
-VoxelIndex smallest(const VoxelIndex& a, const VoxelIndex& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
 
 }  // namespace
@@ -122,16 +108,15 @@ std::vector<Candidate> GlobalSearch::candidates(const ScanSample& sample,
       points[r].push_back(voxelAt(rotations[r] * point, 1.0 / cell_));
     }
   }
-  VoxelIndex first = box.first;
-  VoxelIndex last = box.last;
+  VoxelBox shifts = box;
   if (region.around) {
     const Eigen::Vector3d centre = region.around->T_map_sensor.translation();
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(region.around->distance);
-    first = largest(first, voxelAt(centre - reach, 1.0 / cell_));
-    last = smallest(last, voxelAt(centre + reach, 1.0 / cell_));
+    shifts =
+        common(box, {voxelAt(centre - reach, 1.0 / cell_), voxelAt(centre + reach, 1.0 / cell_)});
   }
   BranchAndBound search(*pyramid_, points, share, least, control);
-  for (const SearchNode& leaf : search.find(first, last)) {
+  for (const SearchNode& leaf : search.find(shifts)) {
     Candidate candidate;
     candidate.T_map_sensor.linear() = rotations[leaf.rotation];
     candidate.T_map_sensor.translation() =
@@ -169,7 +154,7 @@ SearchResult GlobalSearch::search(const ScanSample& sample, const SearchRegion& 
   for (const MatchResult& match : matches) {
     const bool known =
         std::any_of(result.answers.begin(), result.answers.end(), [&](const MatchResult& answer) {
-          return areNear(answer.T_map_sensor, match.T_map_sensor, kSameTranslation, kSameRotation);
+          return areOneAnswer(answer.T_map_sensor, match.T_map_sensor);
         });
     if (!known && match.refusal == Refusal::kNone) result.answers.push_back(match);
   }

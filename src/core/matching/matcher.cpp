@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/matching/correspondences.hpp"
+#include "core/matching/one_answer.hpp"
 #include "core/matching/open_directions.hpp"
 #include "edgevox/matching/free_space.hpp"
 #include "edgevox/scan/motion.hpp"
@@ -34,10 +35,8 @@ constexpr double kSharpSigma = 0.02;      // of a prediction that needs no wider
 constexpr double kLeastAgreement = 0.12;  // of a match from an unsure guess
 constexpr double kComparable = 0.9;       // coarse score of a restart, of the best one
 constexpr double kAlike = 0.98;           // hit ratio of another answer, of the best one
-constexpr double kSameTranslation = 0.5;  // within which two matches are one answer [m]
-constexpr double kSameRotation = 5.0 * M_PI / 180.0;  // the same [rad]
-constexpr double kSameStart = 0.25;                   // of these, of starts that lead to one match
-constexpr double kInflation = 6.0;  // the inverse information underestimates the scatter
+constexpr double kSameStart = 0.25;       // of what is one answer, of starts that lead to one
+constexpr double kInflation = 6.0;        // the inverse information underestimates the scatter
 constexpr double kLeastInformation = kInflation / (1.0 * 1.0);  // of a pose: 1 m, 1 rad
 constexpr double kLargestMove = 10.0;                           // of one step [m, rad]
 constexpr double kConvergedDistance = 5e-4;                     // [m]
@@ -136,13 +135,6 @@ Move difference(const Pose& to, const Pose& from) {
   move << to.translation() - from.translation(),
       rotationVector(to.linear() * from.linear().transpose());
   return move;
-}
-
-/// `share`: of what is one answer.
-bool areWithin(double share, const Pose& a, const Pose& b) {
-  const Pose between = a.inverse() * b;
-  return between.translation().norm() < share * kSameTranslation &&
-         rotationAngle(between) < share * kSameRotation;
 }
 
 Matrix6 covarianceOf(const Matrix6& information) {
@@ -288,7 +280,9 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     const double growth = 1.0 + static_cast<double>(++restarts) / config_.max_restarts;
     const Pose start = disturbed(request.guess.T_map_sensor, request.reach * growth, state);
     const Pose found = search(map, sample, points, start, look_ups);
-    const auto isFound = [&](const Pose& other) { return areWithin(kSameStart, found, other); };
+    const auto isFound = [&](const Pose& other) {
+      return areNear(found, other, kSameStart * kSameTranslation, kSameStart * kSameRotation);
+    };
     if (coarseScore(found) < kComparable * best_score ||
         std::any_of(starts.begin(), starts.end(), isFound)) {
       continue;
@@ -309,7 +303,7 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
   best.look_ups = look_ups;
   const bool ambiguous = std::any_of(answers.begin(), answers.end(), [&](const MatchResult& other) {
     return other.hit_ratio > kAlike * best.hit_ratio &&
-           !areWithin(1.0, best.T_map_sensor, other.T_map_sensor);
+           !areOneAnswer(best.T_map_sensor, other.T_map_sensor);
   });
   if (ambiguous && best.degeneracy.directions == 0) best.refusal = Refusal::kAmbiguous;
 }

@@ -9,19 +9,26 @@ namespace {
 constexpr int kWordBits = 64;
 constexpr size_t kLook = 16;  // points between two looks at whether it is worth while
 
+VoxelIndex smallest(const VoxelIndex& a, const VoxelIndex& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+
+VoxelIndex largest(const VoxelIndex& a, const VoxelIndex& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
 }  // namespace
 
 VoxelBox boxOf(const BitGrid<8>& grid) {
   VoxelBox box;
-  bool any = false;
   grid.forEach([&](const VoxelIndex& v) {
-    if (!any) box = {v, v};
-    any = true;
-    box.first = {std::min(box.first.x, v.x), std::min(box.first.y, v.y),
-                 std::min(box.first.z, v.z)};
-    box.last = {std::max(box.last.x, v.x), std::max(box.last.y, v.y), std::max(box.last.z, v.z)};
+    box = box.empty() ? VoxelBox{v, v} : VoxelBox{smallest(box.first, v), largest(box.last, v)};
   });
   return box;
+}
+
+VoxelBox common(const VoxelBox& a, const VoxelBox& b) {
+  return {largest(a.first, b.first), smallest(a.last, b.last)};
 }
 
 VoxelBox ShiftPyramid::cellsOf(const VoxelBox& voxels) {

@@ -16,10 +16,16 @@ struct VoxelBox {
   VoxelIndex first;
   VoxelIndex last{-1, -1, -1};
 
-  bool empty() const { return last.x < first.x; }
+  bool empty() const { return last.x < first.x || last.y < first.y || last.z < first.z; }
+  bool holds(const VoxelIndex& v) const {
+    return v.x >= first.x && v.y >= first.y && v.z >= first.z && v.x <= last.x && v.y <= last.y &&
+           v.z <= last.z;
+  }
 };
 /// Of the voxels of a grid.
 VoxelBox boxOf(const BitGrid<8>& grid);
+/// What two boxes share.
+VoxelBox common(const VoxelBox& a, const VoxelBox& b);
 
 /// Occupied voxels as dense bits of cells, two a voxel's side, and their maxima over shifts: a cell
 /// is set at height h if one of the cube of 2^h cells a side that begins with it is set at height

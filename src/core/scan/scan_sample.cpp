@@ -45,6 +45,14 @@ std::vector<size_t> sampleVoxels(const VoxelScan& scan, size_t count) {
   return sample;
 }
 
+std::vector<Eigen::Vector3d> sampleCentroids(const VoxelScan& scan, size_t count) {
+  std::vector<Eigen::Vector3d> centroids;
+  for (const size_t position : sampleVoxels(scan, count)) {
+    centroids.push_back(scan.voxels[position].centroid.cast<double>());
+  }
+  return centroids;
+}
+
 SweepTime sweepTime(const VoxelScan& scan) {
   if (scan.voxels.empty()) return {};
   const auto [first, last] = std::minmax_element(

@@ -15,6 +15,8 @@ namespace edgevox {
 /// At most `count` voxels of the scan, spread over it, in an order fixed by hash: positions in
 /// scan.voxels.
 std::vector<size_t> sampleVoxels(const VoxelScan& scan, size_t count);
+/// Their centroids, of a scan that was seen at once [m].
+std::vector<Eigen::Vector3d> sampleCentroids(const VoxelScan& scan, size_t count);
 
 /// First and last time offset of a scan's voxels from its stamp [s].
 struct SweepTime {

@@ -21,13 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
 
-ScanSample sampleOf(const VoxelScan& scan, size_t count = 12000) {
-  ScanSample sample;
-  for (const size_t i : sampleVoxels(scan, count)) {
-    sample.push_back(scan.voxels[i].centroid.cast<double>());
-  }
-  return sample;
-}
+ScanSample sampleOf(const VoxelScan& scan) { return sampleCentroids(scan, 12000); }
 
 struct Room {
   Config config;
@@ -99,7 +93,7 @@ TEST(BranchAndBound, FindsWhatLookingEverywhereFinds) {
     SearchControl control;
     control.threads = threads;
     BranchAndBound search(pyramid, points, kShare, 1, control);
-    const auto found = search.find(box.first, box.last);
+    const auto found = search.find(box);
     ASSERT_EQ(all.size(), found.size());
     for (size_t i = 0; i < all.size(); ++i) {
       EXPECT_EQ(all[i].bound, found[i].bound);

@@ -16,6 +16,7 @@
 #include "edgevox/matching/free_space.hpp"
 #include "edgevox/matching/matcher.hpp"
 #include "edgevox/scan/motion.hpp"
+#include "support/mapped_world.hpp"
 #include "support/random.hpp"
 #include "support/sweeps.hpp"
 
@@ -26,24 +27,10 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
 
-Pose poseOf(const Vector3d& position, double yaw) {
-  Pose pose(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
-  pose.translation() = position;
-  return pose;
-}
-
 sim::Sensor roomSensor() {
   sim::Sensor sensor = sim::makeSensor("32");
   sensor.columns = 512;
   return sensor;
-}
-
-ScanSample sampleOf(const VoxelScan& scan, size_t count) {
-  ScanSample sample;
-  for (const size_t i : sampleVoxels(scan, count)) {
-    sample.push_back(scan.voxels[i].centroid.cast<double>());
-  }
-  return sample;
 }
 
 /// The furnished room mapped from true poses, and a scan that is not in the map.
@@ -76,7 +63,7 @@ struct MappedRoom {
     }
     builder.label();
     builder.prepareAll();
-    sample = sampleOf(scanFrom(truth, 100), 3000);
+    sample = sampleCentroids(scanFrom(truth, 100), 3000);
   }
 
   VoxelScan scanFrom(const Pose& pose, uint32_t seed) const {
@@ -261,7 +248,7 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
     request.far_hit_ratio = 0.95 * usual;
     request.all_voxels = true;
     const auto result = room.matcher().match(
-        room.map, sampleOf(voxelScans({sweep}, room.config)[0], 3000), request);
+        room.map, sampleCentroids(voxelScans({sweep}, room.config)[0], 3000), request);
     EXPECT_FALSE(result.accepted()) << time;
     EXPECT_EQ(room.config.matcher.max_restarts, result.restarts);
     best = std::max(best, result.hit_ratio);
@@ -356,7 +343,7 @@ TEST(Match, OfRandomPointsHasAnEnd) {
   request.reach = 4.0;
   request.all_voxels = true;
   const ScanSample random =
-      sampleOf(voxelScans({randomSweep(5, 0.0, 100000)}, room.config)[0], 12000);
+      sampleCentroids(voxelScans({randomSweep(5, 0.0, 100000)}, room.config)[0], 12000);
   const MatchResult result = room.matcher().match(room.map, random, request);
   RecordProperty("look_ups", static_cast<int>(result.look_ups));
   EXPECT_FALSE(result.accepted());
