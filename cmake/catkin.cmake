@@ -27,7 +27,7 @@ add_message_files(FILES
   Voxel.msg
   VoxelScanStamped.msg
 )
-add_service_files(FILES SaveMap.srv)
+add_service_files(FILES LoadMap.srv SaveMap.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(

@@ -18,11 +18,15 @@ target_link_libraries(${PROJECT_NAME}_core
   PUBLIC Eigen3::Eigen Threads::Threads
   PRIVATE OpenSSL::Crypto edgevox::tbb edgevox::zstd)
 target_link_options(${PROJECT_NAME}_core PRIVATE -Wl,--no-undefined)
+target_precompile_headers(${PROJECT_NAME}_core PRIVATE
+  <algorithm> <cmath> <functional> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry>)
 
 include(CheckCXXCompilerFlag)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i[3-6]86)$")
   check_cxx_compiler_flag(-mavx2 EDGEVOX_COMPILER_HAS_AVX2)
 endif()
 if(EDGEVOX_COMPILER_HAS_AVX2)
-  set_source_files_properties(src/core/edges/edge_kernel_avx2.cpp PROPERTIES COMPILE_OPTIONS -mavx2)
+  set_source_files_properties(src/core/edges/edge_kernel_avx2.cpp PROPERTIES
+    COMPILE_OPTIONS -mavx2
+    SKIP_PRECOMPILE_HEADERS ON)
 endif()

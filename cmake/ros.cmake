@@ -20,6 +20,9 @@ set_target_properties(${PROJECT_NAME}_conversions PROPERTIES POSITION_INDEPENDEN
 target_include_directories(${PROJECT_NAME}_conversions PUBLIC src)
 target_include_directories(${PROJECT_NAME}_conversions SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_conversions PUBLIC ${PROJECT_NAME}_core ${catkin_LIBRARIES})
+target_precompile_headers(${PROJECT_NAME}_conversions PRIVATE
+  <functional> <map> <string> <Eigen/Geometry> <diagnostic_updater/diagnostic_updater.h>
+  <nodelet/nodelet.h> <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
 add_dependencies(${PROJECT_NAME}_conversions
   ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 
@@ -27,14 +30,13 @@ add_library(${PROJECT_NAME}_live STATIC ${EDGEVOX_LIVE_SOURCES})
 set_target_properties(${PROJECT_NAME}_live PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(${PROJECT_NAME}_live SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_live PUBLIC ${PROJECT_NAME}_conversions)
+target_precompile_headers(${PROJECT_NAME}_live REUSE_FROM ${PROJECT_NAME}_conversions)
 
 add_library(${PROJECT_NAME}_nodelets SHARED ${EDGEVOX_NODE_SOURCES})
 target_include_directories(${PROJECT_NAME}_nodelets SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${PROJECT_NAME}_live ${PROJECT_NAME}_run)
 target_link_options(${PROJECT_NAME}_nodelets PRIVATE -Wl,--no-undefined)
-target_precompile_headers(${PROJECT_NAME}_nodelets PRIVATE
-  <functional> <map> <string> <Eigen/Geometry> <diagnostic_updater/diagnostic_updater.h>
-  <nodelet/nodelet.h> <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
+target_precompile_headers(${PROJECT_NAME}_nodelets REUSE_FROM ${PROJECT_NAME}_conversions)
 add_dependencies(${PROJECT_NAME}_nodelets ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_library(${PROJECT_NAME}_tools STATIC ${EDGEVOX_TOOLS_SOURCES})
@@ -43,16 +45,17 @@ target_include_directories(${PROJECT_NAME}_tools SYSTEM PRIVATE
 target_link_libraries(${PROJECT_NAME}_tools PUBLIC
   ${PROJECT_NAME}_conversions ${PROJECT_NAME}_run ${YAML_CPP_LIBRARIES} ${OCTOMAP_LIBRARIES}
   Boost::program_options)
+target_precompile_headers(${PROJECT_NAME}_tools PRIVATE
+  <algorithm> <filesystem> <functional> <iostream> <string> <boost/program_options.hpp>
+  <Eigen/Geometry> <pcl/point_cloud.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h>)
 
 if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})
   target_include_directories(${PROJECT_NAME}_evaluation SYSTEM PRIVATE ${outer_include_dirs})
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
     ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree pcl_registration edgevox::tbb)
-  target_precompile_headers(${PROJECT_NAME}_evaluation PRIVATE
-    <algorithm> <filesystem> <functional> <iostream> <string> <boost/program_options.hpp>
-    <Eigen/Geometry> <pcl/point_cloud.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h>)
-  set_source_files_properties(src/evaluation/pcl_registration.cpp PROPERTIES
+  target_precompile_headers(${PROJECT_NAME}_evaluation REUSE_FROM ${PROJECT_NAME}_tools)
+  set_source_files_properties(src/evaluation/pcl_registration.cpp src/evaluation/pcl_search.cpp PROPERTIES
     COMPILE_OPTIONS -Wno-array-bounds)  # in templates of PCL and Eigen, by gcc 12
 endif()
 

@@ -6,7 +6,12 @@ set(core_test_headers <algorithm> <filesystem> <fstream> <sstream> <string> <vec
 set(outer_test_headers ${core_test_headers} <pcl/io/pcd_io.h> <pcl/io/ply_io.h>
   <ros/node_handle.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h> <tf2_msgs/TFMessage.h>
   <yaml-cpp/yaml.h>)
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fuse-ld=gold EDGEVOX_LINKER_IS_GOLD)  # three times as fast
 function(edgevox_compile_test test_target kind)
+  if(EDGEVOX_LINKER_IS_GOLD)
+    target_link_options(${test_target} PRIVATE -fuse-ld=gold)
+  endif()
   target_compile_options(${test_target} PRIVATE -O1
     -Wno-dangling-else)  # if (...) EXPECT_EQ(...)
   get_property(first GLOBAL PROPERTY edgevox_precompiled_${kind})

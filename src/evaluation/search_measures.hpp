@@ -19,7 +19,8 @@ struct SearchMeasureOptions {
   std::string config_name = "the defaults";  ///< to print
   std::string map_name;                      ///< the same
   Pose T_map_recording = Pose::Identity();   ///< from the frame of the recording's poses
-  bool level = false;  ///< the sensor is taken as level; else it is told where up is
+  bool level = false;    ///< the sensor is taken as level; else it is told where up is
+  size_t pcl_every = 0;  ///< of the scans so many are looked for by PCL, too; 0: none
 };
 
 enum class SearchVerdict {
@@ -42,18 +43,25 @@ struct SearchTrial {
   double evidence = 0.0;   ///< for the best answer; NaN: there is none
   double runner_up = 0.0;  ///< for the next
   double hit_share = 0.0;  ///< of the best answer
-  double seconds = 0.0;    ///< wall time, on all processors
+  double seconds = 0.0;    ///< wall time
 };
 
-/// Looks for each scan of the recording, as seen at once, in a map.
-std::vector<SearchTrial> measureSearch(const MatchMap& map, const Recording& recording,
-                                       const SearchMeasureOptions& options);
+/// The trials of one method.
+struct SearchTrials {
+  std::string method;
+  std::vector<SearchTrial> trials;
+};
+
+/// Looks for each scan of the recording, as seen at once, in a map, on all processors; for some of
+/// them, if asked for, also by PCL, on one, which always gives a pose. edgevox comes first.
+std::vector<SearchTrials> measureSearch(const MatchMap& map, const Recording& recording,
+                                        const SearchMeasureOptions& options);
 
 /// A row a trial.
-Table searchTable(const std::vector<SearchTrial>& trials);
+Table searchTable(const std::vector<SearchTrials>& methods);
 
 /// The counts and quantiles of all trials, with what they mean.
 std::string searchMarkdown(const Recording& recording, const SearchMeasureOptions& options,
-                           const std::vector<SearchTrial>& trials);
+                           const std::vector<SearchTrials>& methods);
 
 }  // namespace edgevox

@@ -2,111 +2,87 @@
 #include "nodes/mapper_node.hpp"
 
 #include <optional>
+#include <utility>
 
+#include "nodes/load_map.hpp"
 #include "nodes/save_run.hpp"
+#include "nodes/scan_report.hpp"
 #include "ros/conversions/map_messages.hpp"
 #include "ros/conversions/voxel_scan_message.hpp"
 
 namespace edgevox {
-namespace {
-
-constexpr double kTransformCache = 30.0;    // [s]
-constexpr double kPoll = 0.002;             // of TF [s]
-constexpr double kLongestLatency = 3600.0;  // more is a scan from a bag [s]
-
-/// Time since the arrival of the cloud; 0 if that was on another day or computer [s].
-float latencyOf(const VoxelScanStamped& scan) {
-  const double seconds = ros::WallTime::now().toSec() - scan.arrival.toSec();
-  return seconds > 0 && seconds < kLongestLatency ? static_cast<float>(seconds) : 0.0F;
-}
-
-}  // namespace
 
 MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                        const std::string& name)
     : log_(name),
       parameters_(readMapperParameters(private_handle)),
-      transforms_(handle, ros::Duration(kTransformCache), parameters_.config.mapper.clock_leap,
-                  log_),
-      clock_watch_(parameters_.config.mapper.clock_jump, parameters_.config.mapper.clock_leap),
-      reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
       scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       map_publisher_(handle, parameters_.map_frame),
-      transformer_(SensorFrames(transforms_.transforms().buffer(), parameters_.frames)),
-      map_transform_(handle, transforms_.transforms(), parameters_.map_frame,
-                     parameters_.frames.odom),
-      pose_publisher_(handle, parameters_.map_frame, parameters_.frames.base,
-                      parameters_.path_length),
       mapper_(parameters_.config, Clock::kWall),
-      input_(handle, "voxels", parameters_.queue_size, log_,
-             [this](const Input::Arrival& arrival) { process(arrival); }),
+      services_(handle),
+      io_(handle, parameters_, log_,
+          {[this] { begin(); },
+           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+             return map(scan, transforms);
+           }}),
       map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
-      services_(handle),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+
+/// Services tell that the map is there.
+void MapperNode::begin() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    mapper_.setControl({kAllProcessors, &io_.interrupted()});
+  }
+  if (parameters_.map) {
+    try {
+      load(*parameters_.map);
+    } catch (const std::exception& error) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      map_error_ = error.what();
+      ROS_ERROR_STREAM(map_error_);
+    }
+    parameters_.map.reset();
+  }
+  io_.addServices(services_);
   services_.add("save_map", &MapperNode::saveMap, this);
+  services_.add("load_map", &MapperNode::loadMap, this);
   services_.add("reset", &MapperNode::reset, this);
   services_.start();
 }
 
-void MapperNode::process(const Input::Arrival& arrival) {
-  const VoxelScanStamped& scan = *arrival.message;
-  const auto refusal = refusalOf(scan, parameters_.config);
-  if (!refusal) {
-    watchClock(scan.header.stamp.toSec());
-    waitForTransforms(arrival);
-  }
-  if (input_.stopping()) return;
+void MapperNode::load(const MapFile& file) {
+  Mapper mapper(parameters_.config, Clock::kWall);
+  file.restore(mapper);
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (refusal) {
-    ++run_.left_out[refusal->reason];
-    return report(reportOn(scan, *refusal));
-  }
-  const auto transforms = transformer_.transformsOf(scan.header);
-  if (const auto* unusable = std::get_if<ScanRefusal>(&transforms)) {
-    ++run_.left_out[unusable->reason];
-    return report(reportOn(scan, *unusable));
-  }
-  report(map(scan, std::get<ScanTransforms>(transforms)));
-}
-
-/// After a jump back TF would refuse the transforms of the new time, as too old.
-void MapperNode::watchClock(double stamp) {
-  const ClockWatch::Order order = clock_watch_.check(stamp);
-  if (order == ClockWatch::Order::kJumpedBack) transforms_.clear();
-  if (order == ClockWatch::Order::kInTime || order == ClockWatch::Order::kJumpedBack) {
-    clock_watch_.accept(stamp);
-  }
-}
-
-void MapperNode::waitForTransforms(const Input::Arrival& arrival) const {
-  const std_msgs::Header& header = arrival.message->header;
-  const ros::WallTime until = arrival.time + ros::WallDuration(parameters_.transform_wait);
-  while (!(transformer_.isReady(header) && map_transform_.isReady(header)) &&
-         ros::WallTime::now() < until && !input_.stopping()) {
-    ros::WallDuration(kPoll).sleep();
-  }
+  mapper_ = std::move(mapper);
+  mapper_.setControl({kAllProcessors, &io_.interrupted()});
+  run_ = {};
+  io_.reset();
+  map_error_.clear();
+  ++map_version_;
+  ++map_start_;
 }
 
 ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!map_error_.empty()) return reportOn(scan, noMap(map_error_));
   const VoxelScan voxels = fromMessage(scan);
+  if (const auto pose = io_.takePose(transforms)) mapper_.lookNear(*pose);
   ScanResult result = mapper_.track(voxels, transforms.prior());
   if (result.clock_jumped) clockJumped();
   if (result.begun_anew) begunAnew(scan.number);
-  if (result.odometry_jumped) {
-    log_.warn("odometry_jump", "scan " + std::to_string(scan.number) +
-                                   " is predicted at constant velocity: " + odometryJumpText());
-  }
-  publishPose(scan, result, transforms);
-  const float latency = latencyOf(scan);
+  if (!transforms.odometry_error.empty()) ++run_.without_odometry;
+  const float latency = io_.publishPose(scan, result, transforms);
   if (result.located()) {
     mapper_.insert(voxels, result);
     ++map_version_;
     publishScanEdges(scan.header.stamp);
   }
   if (mapper_.map().isFull()) log_.warn("map_full", fullText(parameters_.config.map));
-  ScanReport report = reportOn(scan, result);
+  ScanReport report = reportOn(scan, result, "call reset for a new map");
   report.latency = latency;
   const auto total = static_cast<double>(timesOf(report).total());
   run_.time_field = scan.time_field;
@@ -117,7 +93,7 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
 
 void MapperNode::clockJumped() {
   const bool cleared = parameters_.config.mapper.after_clock_jump == AfterClockJump::kClearMap;
-  if (cleared) pose_publisher_.reset();
+  if (cleared) io_.forgetPoses();
   ++map_version_;
   ++map_start_;
   log_.warn("clock_jump",
@@ -126,32 +102,10 @@ void MapperNode::clockJumped() {
 }
 
 void MapperNode::begunAnew(uint64_t scan) {
-  pose_publisher_.reset();
+  io_.forgetPoses();
   ++map_version_;
   ++map_start_;
   log_.warn("begun_anew", "scan " + std::to_string(scan) + ": " + begunAnewText());
-}
-
-void MapperNode::publishPose(const VoxelScanStamped& scan, const ScanResult& result,
-                             const ScanTransforms& transforms) {
-  if (!transforms.odometry_error.empty()) {
-    ++run_.without_odometry;
-    log_.warn("no_odometry",
-              "scan " + std::to_string(scan.number) +
-                  " is predicted at constant velocity: " + transforms.odometry_error);
-  }
-  status_.setOdometryError(transforms.odometry_error);
-  if (parameters_.publish_tf && result.status != ScanStatus::kStale) {
-    const std::string error = map_transform_.publish(scan.header, result, transforms);
-    status_.setTransformError(error);
-    if (!error.empty()) log_.warn("transform", "no pose on TF: " + error);
-  }
-  if (!result.located()) return;
-  if (!pose_publisher_.publish(scan.header, result, transforms.T_base_sensor)) {
-    log_.warn("not_finite", "the pose of scan " + std::to_string(scan.number) +
-                                " is not finite and not published; call reset for a new map");
-  }
-  last_stamp_ = scan.header.stamp;
 }
 
 void MapperNode::publishScanEdges(const ros::Time& stamp) const {
@@ -162,30 +116,19 @@ void MapperNode::publishScanEdges(const ros::Time& stamp) const {
   scan_edges_.publish(toCloud(mapper_.recentEdges().edgeCentroids(), header));
 }
 
-void MapperNode::report(ScanReport report) {
-  report.dropped += input_.dropped();
-  if (!report.located) {
-    log_.warn(report.status, "scan " + std::to_string(report.number) + " is " + report.status +
-                                 ": " + report.text);
-  }
-  status_.add(report);
-  run_.refused = report.refused;
-  run_.dropped = report.dropped;
-  reports_.publish(report);
-}
-
 void MapperNode::publishMap() {
   const std::lock_guard<std::mutex> publishing(publishing_);
-  std::optional<nav_msgs::Path> path;
+  io_.publishPath();
   std::optional<MapSnapshot> snapshot;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    path = pose_publisher_.takePath();
     if (map_publisher_.isDue(map_version_)) {
-      snapshot = MapSnapshot{mapper_.map(), map_version_, map_start_, last_stamp_};
+      snapshot = snapshotOf(mapper_.map());
+      snapshot->version = map_version_;
+      snapshot->start = map_start_;
+      snapshot->stamp = io_.lastStamp();
     }
   }
-  if (path) pose_publisher_.publish(*path);
   if (snapshot) map_publisher_.publish(*snapshot);
 }
 
@@ -193,30 +136,32 @@ bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response)
   const std::string folder = request.folder.empty() ? parameters_.output : request.folder;
   std::unique_lock<std::mutex> lock(mutex_);
   Mapper mapper = mapper_;
-  const RunRecord run = run_;
+  RunRecord run = run_;
+  const TrackingIo::Counts counts = io_.counts();
   lock.unlock();
-  try {
-    response.message =
-        saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0, mapper);
-    response.success = static_cast<uint8_t>(true);
-    ROS_INFO_STREAM(response.message);
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    response.success = static_cast<uint8_t>(false);
-    log_.warn("save", response.message);
-  }
-  return true;
+  run.left_out = counts.left_out;
+  run.refused = counts.refused;
+  run.dropped = counts.dropped;
+  return answer(response, log_, [&] {
+    return saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0,
+                   mapper);
+  });
+}
+
+bool MapperNode::loadMap(LoadMap::Request& request, LoadMap::Response& response) {
+  return answer(response, log_, [&] {
+    const MapFile file = readMapFile(request.file, parameters_.config);
+    load(file);
+    return loadedText(request.file, file) + "; mapping goes on where the sensor is found in it";
+  });
 }
 
 bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   mapper_.reset();
-  transformer_.reset();
-  map_transform_.reset();
-  pose_publisher_.reset();
+  io_.reset();
   run_ = {};
-  status_ = {};
-  status_.droppedTold() = input_.dropped();
+  map_error_.clear();
   ++map_version_;
   ++map_start_;
   response.message = "the map is empty; the next scan is its first";
@@ -225,19 +170,23 @@ bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&
 }
 
 void MapperNode::diagnose(DiagnosticStatus& status) {
-  const InputReading reading = input_.reading();
-  const TransformReading transforms = transforms_.reading();
-  const std::string missing = services_.missing();
   std::unique_lock<std::mutex> lock(mutex_);
   const MapBuilder map = mapper_.map();
-  const MapperStatus state = status_;
+  const std::string map_error = map_error_;
   lock.unlock();
-  state.fill(map, status);
+  io_.fill(status);
+  if (!map_error.empty()) status.mergeSummary(DiagnosticStatus::ERROR, map_error);
   if (map.isFull()) warn(fullText(parameters_.config.map), status);
-  lock.lock();
-  addInput(reading, status_.droppedTold(), status);
-  addTransforms(transforms, transforms_told_, status);
-  if (!missing.empty()) warn("services " + missing, status);
+  if (const std::string missing = services_.missing(); !missing.empty()) {
+    warn("services " + missing, status);
+  }
+  status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
+  status.add("occupied voxels of the map", map.hitVoxelCount());
+  status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
+  status.add("frozen voxels of the map", map.frozenVoxels());
+  status.add("frozen regions of the map", map.frozenRegions());
+  status.add("centroids alone, left out", map.loneCentroids());
+  status.add("centroids past map/memory, left out", map.centroidsPastMemory());
 }
 
 }  // namespace edgevox

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <edgevox/LoadMap.h>
 #include <edgevox/SaveMap.h>
-#include <edgevox/VoxelScanStamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <std_srvs/Trigger.h>
@@ -11,19 +11,12 @@
 #include <string>
 
 #include "edgevox/mapping/mapper.hpp"
-#include "edgevox/tracking/clock_watch.hpp"
 #include "nodes/diagnostics.hpp"
-#include "nodes/mapper_status.hpp"
-#include "nodes/scan_report.hpp"
-#include "ros/conversions/scan_transforms.hpp"
+#include "nodes/tracking_io.hpp"
 #include "ros/live/map_publisher.hpp"
-#include "ros/live/map_transform.hpp"
 #include "ros/live/parameters.hpp"
-#include "ros/live/pose_publisher.hpp"
-#include "ros/live/scan_input.hpp"
 #include "ros/live/service_offers.hpp"
 #include "ros/live/throttled_log.hpp"
-#include "ros/live/transform_input.hpp"
 #include "run/run_record.hpp"
 
 namespace edgevox {
@@ -38,48 +31,37 @@ class MapperNode {
   MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
              const std::string& name);
 
- private:
-  using Input = ScanInput<VoxelScanStamped>;
+  ~MapperNode() { services_.withdraw(); }
 
-  void process(const Input::Arrival& arrival);
-  void watchClock(double stamp);
-  void waitForTransforms(const Input::Arrival& arrival) const;
+ private:
+  void begin();
+  void load(const MapFile& file);
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
   void clockJumped();
   void begunAnew(uint64_t scan);
-  void publishPose(const VoxelScanStamped& scan, const ScanResult& result,
-                   const ScanTransforms& transforms);
   void publishScanEdges(const ros::Time& stamp) const;
-  void report(ScanReport report);
   void publishMap();
   bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
+  bool loadMap(LoadMap::Request& request, LoadMap::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void diagnose(DiagnosticStatus& status);
 
   ThrottledLog log_;
   MapperParameters parameters_;
-  TransformInput transforms_;
-  ClockWatch clock_watch_;
-  ros::Publisher reports_;
   ros::Publisher scan_edges_;
   std::mutex publishing_;  // of the map
   MapPublisher map_publisher_;
 
   std::mutex mutex_;  // of all below, up to the input
-  ScanTransformer transformer_;
-  MapTransform map_transform_;
-  PosePublisher pose_publisher_;
   Mapper mapper_;
   RunRecord run_;
-  MapperStatus status_;
+  std::string map_error_;  // why there is no map to go on with, where there should be one
   uint64_t map_version_ = 0;
-  uint64_t map_start_ = 0;        // differs after a reset, a jump of the clock or a new begin
-  uint64_t transforms_told_ = 0;  // as refused
-  ros::Time last_stamp_;          // of the last located scan
+  uint64_t map_start_ = 0;  // differs after a reset, a jump of the clock or a new begin
 
-  Input input_;
-  ros::WallTimer map_timer_;
   ServiceOffers services_;
+  TrackingIo io_;
+  ros::WallTimer map_timer_;
   NodeDiagnostics diagnostics_;
 };
 

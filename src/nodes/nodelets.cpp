@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "nodes/edge_extractor_node.hpp"
+#include "nodes/localizer_node.hpp"
 #include "nodes/mapper_node.hpp"
 #include "nodes/voxelizer_node.hpp"
 
@@ -30,9 +31,11 @@ class NodeletOf : public nodelet::Nodelet {
 using VoxelizerNodelet = NodeletOf<VoxelizerNode>;
 using EdgeExtractorNodelet = NodeletOf<EdgeExtractorNode>;
 using MapperNodelet = NodeletOf<MapperNode>;
+using LocalizerNodelet = NodeletOf<LocalizerNode>;
 
 }  // namespace edgevox
 
 PLUGINLIB_EXPORT_CLASS(edgevox::VoxelizerNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(edgevox::EdgeExtractorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(edgevox::MapperNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(edgevox::LocalizerNodelet, nodelet::Nodelet)

@@ -40,6 +40,11 @@ std::string whyLost(const ScanResult& result) {
       return fits + ", but in one direction next to nothing does";
     case Refusal::kOutOfGrid:
       return "the pose found is out of the grid's range";
+    case Refusal::kNotFound:
+      return "it was not found in the map; where it fits best, " + percent(result.hit_share) +
+             " of its points lie in occupied voxels";
+    case Refusal::kCancelled:
+      return "the search in the map was ended by a service, a pose or the end of the nodelet";
     default:
       return fits + ", " + percent(result.required_hit_ratio) + " must";
   }
@@ -51,15 +56,15 @@ StageTimes timesOf(const ScanReport& report) {
   return {report.voxelize, report.extract, report.match, report.insert, report.label};
 }
 
-std::string adviceOn(const ScanResult& result) {
+std::string adviceOn(const ScanResult& result, const std::string& way_out) {
   switch (result.status) {
     case ScanStatus::kLost:
-      return whyLost(result) +
-             "; the map is as before: go back to a mapped place, or call reset for a new map";
+      return whyLost(result) + "; the map is as before: go back to a mapped place, or " + way_out;
     case ScanStatus::kAmbiguous:
       return percent(result.hit_ratio) +
              " of the scan fits the map in more than one place; the map is as before: move on to "
-             "where the surroundings differ, or back to where the sensor was";
+             "where the surroundings differ, or " +
+             way_out;
     case ScanStatus::kStale:
       if (result.ahead) {
         return "its stamp is later than that of the last scan by more than mapper/clock_leap; the "
@@ -93,12 +98,14 @@ PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& 
   return all;
 }
 
-ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result) {
+ScanReport reportOn(const VoxelScanStamped& scan, const ScanResult& result,
+                    const std::string& way_out) {
   ScanReport report = reportOn(scan);
   report.located = static_cast<uint8_t>(result.located());
   report.status = toString(result.status);
-  report.text = adviceOn(result);
+  report.text = adviceOn(result, way_out);
   report.hit_ratio = static_cast<float>(result.hit_ratio);
+  report.hit_share = static_cast<float>(result.hit_share);
   report.required_hit_ratio = static_cast<float>(result.required_hit_ratio);
   report.blocked = static_cast<float>(result.blocked);
   report.most_blocked = static_cast<float>(result.most_blocked);

@@ -2,11 +2,9 @@
 #include "tools/map_bag_options.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
-#include <sstream>
 
+#include "edgevox/io/pose_text.hpp"
 #include "tools/config_file.hpp"
 
 namespace edgevox {
@@ -64,20 +62,9 @@ CloudRange rangeOf(const std::string& text) {
   return range;
 }
 
-/// Of x,y,z,yaw.
 Pose startOf(const std::string& text) {
-  std::array<double, 4> values{};
-  std::istringstream stream(text);
-  char comma = ',';
-  for (size_t i = 0; i < values.size(); ++i) {
-    if ((i > 0 && !(stream >> comma)) || comma != ',' || !(stream >> values[i])) {
-      throw UsageError("--start needs x,y,z,yaw, not '" + text + "'");
-    }
-  }
-  if (!(stream >> std::ws).eof()) throw UsageError("--start needs x,y,z,yaw, not '" + text + "'");
-  const double yaw = values[3] * M_PI / 180.0;
-  return Eigen::Translation3d(values[0], values[1], values[2]) *
-         Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+  if (const auto pose = poseOfText(text)) return *pose;
+  throw UsageError("--start needs x,y,z,yaw, not '" + text + "'");
 }
 
 MapBagOptions optionsOf(const po::variables_map& given) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library outside of ROS: built without catkin, installed, found by the project of examples,
-// whose results are those of the library that this test is linked to.
+// whose results are those of the library that this test is linked to, which is optimised more.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -49,7 +49,8 @@ std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 Outcome configure(const fs::path& source, const fs::path& build, const std::string& options) {
   return execute(EDGEVOX_CMAKE " -S " + quoted(source) + " -B " + quoted(build) +
-                 " -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER='" EDGEVOX_COMPILER
+                 " -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 "
+                 "-DCMAKE_CXX_COMPILER='" EDGEVOX_COMPILER
                  "' -DCMAKE_CXX_COMPILER_LAUNCHER='" EDGEVOX_COMPILER_LAUNCHER "' " +
                  options);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mapping.launch gives what map_bag gives, with its own player and with rosbag play.
+// mapping.launch and localization.launch give what map_bag gives, with their own player and with
+// rosbag play.
 #include <edgevox/SaveMap.h>
 #include <edgevox/ScanReport.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/service.h>
@@ -11,8 +13,11 @@
 #include <limits>
 #include <set>
 
+#include "edgevox/io/trajectory_io.hpp"
 #include "launch_fixture.hpp"
 #include "launch_graph.hpp"
+#include "ros/conversions/pose_messages.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -102,7 +107,7 @@ class Launch : public LaunchTest {
   /// By three seconds, as on a slow computer.
   void delayTheMapper() {
     std::string text = contentOf(launch_file_);
-    const size_t at = text.find("args=\"load edgevox/Mapper");
+    const size_t at = text.find("args=\"load edgevox/$(arg tracker_type)");
     ASSERT_NE(at, std::string::npos);
     text.insert(at,
                 "launch-prefix=\"sh -c 'sleep 3 &amp;&amp; exec &quot;$0&quot; &quot;$@&quot;'\" ");
@@ -191,6 +196,51 @@ TEST_F(Launch, mapsWhatRosbagPlaysWithItsClock) {
   const auto roslaunch = launch({"output:=out", "base_frame:=base_link", "odom_frame:=odom"});
   playWithRosbag({"--clock"});
   expectSameAsOffline();
+}
+
+TEST_F(Launch, localizesInAMapThatAnotherProcessHasSaved) {
+  writeBag(goodClouds(), {true, false, false});
+  launchToTheEnd({"bag:=run.bag", "output:=out", "exit_at_end:=true", "base_frame:=base_link"});
+  const std::string map = contentOf(folder_ / "out/map.edgevox");
+  const Trajectory mapped = readTum(folder_ / "out/trajectory.tum");
+  std::vector<nav_msgs::Odometry> located;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
+      "/edgevox/odom", 100,
+      [&](const nav_msgs::Odometry::ConstPtr& message) { located.push_back(*message); });
+  tree_.clear();
+  launch_file_ = EDGEVOX_SOURCE_DIR "/launch/localization.launch";
+  launchToTheEnd(
+      {"map:=out/map.edgevox", "bag:=run.bag", "exit_at_end:=true", "base_frame:=base_link"});
+  ASSERT_EQ(located.size(), mapped.size());
+  for (size_t i = 0; i < mapped.size(); ++i) {
+    EXPECT_NEAR(located[i].header.stamp.toSec(), mapped[i].stamp, 1e-6);
+    const PoseDifference off = differenceOf(mapped[i].pose, poseOf(located[i].pose.pose));
+    EXPECT_LT(off.metres, 0.02) << i;
+    EXPECT_LT(off.degrees, 0.2) << i;
+  }
+  EXPECT_TRUE(contentOf(folder_ / "out/map.edgevox") == map);
+  EXPECT_EQ(tree_.joints(), (Joints{{"map", "base_link"}, {"base_link", "lidar"}}));
+}
+
+TEST_F(Launch, goesOnWithAMap) {
+  constexpr size_t kHalf = kSweeps / 2;
+  MapBagOptions first = offline_;
+  first.bag = (folder_ / "first.bag").string();
+  first.output = folder_ / "first";
+  first.full = true;
+  writeBag({goodClouds().begin(), goodClouds().begin() + kHalf}, {});
+  std::filesystem::rename(offline_.bag, first.bag);
+  mapOffline(first);
+  writeBag({goodClouds().begin() + kHalf, goodClouds().end()}, {});
+  launchToTheEnd({"bag:=run.bag", "map:=first/map.edgevox", "output:=out", "exit_at_end:=true"});
+  offline_.map = (folder_ / "first/map.edgevox").string();
+  expectSameAsOffline();
+}
+
+TEST_F(Launch, endsIfItsMapCannotBeRead) {
+  writeBag(goodClouds(), {});
+  launchToTheEnd({"bag:=run.bag", "map:=none.edgevox", "exit_at_end:=true"});
+  EXPECT_TRUE(logged("none.edgevox")) << log();
 }
 
 TEST_F(Launch, endsIfAParameterIsWrong) {

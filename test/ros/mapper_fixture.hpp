@@ -128,9 +128,9 @@ class MapperTest : public NodeletTest {
     static_tf_.shutdown();
   }
 
-  void start(int queue_size = 100) {
-    setParameter("mapper", "queue_size", queue_size);
-    ASSERT_TRUE(load("mapper"));
+  void start(int queue_size = 100, const std::string& node = "mapper") {
+    setParameter(node, "queue_size", queue_size);
+    ASSERT_TRUE(load(node));
     voxels_ = ros::NodeHandle().advertise<VoxelScanStamped>(resolved("voxels"), 100);
     ASSERT_LE(1U, voxels_.getNumSubscribers());
   }
@@ -148,6 +148,11 @@ class MapperTest : public NodeletTest {
 
   std::string statusOf(size_t report) const { return reports_.messages().at(report)->status; }
   std::string lastStatus() const { return reports_.messages().back()->status; }
+
+  /// Waits until the nodelet has its map.
+  void expectService(const std::string& name) const {
+    EXPECT_TRUE(ros::service::waitForService(resolved(name), ros::Duration(kPatience))) << name;
+  }
 
   void publishStatic(const Transforms& transforms) {
     tf2_msgs::TFMessage message;

@@ -96,12 +96,13 @@ class NodeletTest : public ::testing::Test {
     ros::param::set(resolved(node + "/" + name), value);
   }
 
-  /// "voxelizer", "edge_extractor" or "mapper"
+  /// "voxelizer", "edge_extractor", "mapper" or "localizer"
   bool load(const std::string& node) {
     static const std::map<std::string, std::string> types = {
         {"voxelizer", "edgevox/Voxelizer"},
         {"edge_extractor", "edgevox/EdgeExtractor"},
-        {"mapper", "edgevox/Mapper"}};
+        {"mapper", "edgevox/Mapper"},
+        {"localizer", "edgevox/Localizer"}};
     return loader_.load(resolved(node), types.at(node), {}, {});
   }
   bool unload(const std::string& node) { return loader_.unload(resolved(node)); }

@@ -59,7 +59,13 @@ std::string rangeOf(const Parameter& p) {
 
 TEST(Readme, parameters) {
   MapperParameters defaults;
+  LocalizerParameters localizer;
   std::vector<Parameter> parameters = nodeParametersOf(defaults);
+  for (const Parameter& p : nodeParametersOf(localizer)) {
+    const bool known = std::any_of(parameters.begin(), parameters.end(),
+                                   [&](const Parameter& other) { return other.name == p.name; });
+    if (!known) parameters.push_back(p);
+  }
   for (const Parameter& p : parametersOf(defaults.config)) parameters.push_back(p);
   std::vector<Row> expected;
   for (const Parameter& p : parameters) {
@@ -68,28 +74,42 @@ TEST(Readme, parameters) {
   expectSameRows(tableOf("Parameters"), expected);
 }
 
-TEST(Readme, launchArguments) {
+/// Name, default and meaning of each argument.
+std::vector<Row> argumentsOf(const std::string& launch_file) {
   boost::property_tree::ptree file;
-  boost::property_tree::read_xml(kFolder + "/launch/mapping.launch", file);
-  const std::vector<Row> readme = tableOf("Launch arguments");
-  std::vector<Row> expected;
+  boost::property_tree::read_xml(kFolder + "/launch/" + launch_file, file);
+  std::vector<Row> rows;
   for (const auto& [tag, element] : file.get_child("launch")) {
     if (tag != "arg" || element.count("<xmlattr>") == 0) continue;
     const auto attribute = [&attributes = element.get_child("<xmlattr>")](const char* name) {
       return attributes.get<std::string>(name, "");
     };
     if (!attribute("value").empty()) continue;
-    Row row = {code(attribute("name")), attribute("default"), attribute("doc")};
+    rows.push_back({code(attribute("name")), attribute("default"), attribute("doc")});
+  }
+  return rows;
+}
+
+TEST(Readme, launchArguments) {
+  const std::vector<Row> readme = tableOf("Launch arguments");
+  std::vector<Row> expected = argumentsOf("mapping.launch");
+  for (Row& row : expected) {
     // A default that is computed is told in words.
     const auto told = std::find_if(readme.begin(), readme.end(),
                                    [&](const Row& r) { return r.front() == row.front(); });
     if (row[1].front() == '$' && told != readme.end()) row[1] = told->at(1);
-    expected.push_back(row);
   }
   expectSameRows(readme, expected);
 }
 
-/// What the three nodelets use.
+TEST(Readme, localizationTakesTheArgumentsOfMapping) {
+  std::vector<Row> expected = argumentsOf("mapping.launch");
+  const auto other = [](const Row& row) { return row[0] == "`output`" || row[0] == "`localize`"; };
+  expected.erase(std::remove_if(expected.begin(), expected.end(), other), expected.end());
+  expectSameRows(columns(argumentsOf("localization.launch"), 2), columns(expected, 2));
+}
+
+/// What the four nodelets use.
 class ReadmeOfNodelets : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -108,12 +128,12 @@ class ReadmeOfNodelets : public ::testing::Test {
   static std::string nodeletsIn(const std::set<std::string>& nodes) {
     std::string names;
     int count = 0;
-    for (const char* name : {"voxelizer", "edge_extractor", "mapper"}) {
+    for (const char* name : {"voxelizer", "edge_extractor", "mapper", "localizer"}) {
       if (nodes.count(kSpace + name) == 0) continue;
       names += (names.empty() ? "" : ", ") + std::string(name);
       ++count;
     }
-    return count == 3 ? "all" : names;
+    return count == 4 ? "all" : names;
   }
 
   Graph graph_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Right, wrong and unknown parameters of the nodelets, and inputs on which nothing comes.
+#include <fstream>
 #include <vector>
 
 #include "nodelet_fixture.hpp"
+#include "support/temp_folder.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -57,6 +59,24 @@ TEST_F(ParametersTest, OfTheMapperThatContradictEachOtherAreRefused) {
   expectRefused("mapper", "map_frame", std::string("base_link"),
                 {"not that of odom_frame or base"});
   expectRefused("mapper", "output", std::string("maps/today"), {"'maps/today'", "absolute"});
+}
+
+TEST_F(ParametersTest, OfTheLocalizerAreChecked) {
+  expectRefused("localizer", "initial_pose", std::string("1,2,3"), {"'1,2,3'", "x,y,z,yaw"});
+  expectRefused("localizer", "map_frame", std::string(), {"it must be a name"});
+}
+
+TEST_F(ParametersTest, AMapThatCannotBeReadIsRefused) {
+  const TempFolder folder;
+  const std::string none = (folder / "none.edgevox").string();
+  const std::string no_map = (folder / "no_map.edgevox").string();
+  std::ofstream(no_map) << "no map";
+  for (const char* node : {"voxelizer", "edge_extractor", "mapper", "localizer"}) {
+    expectRefused(node, "map_file", std::string("map.edgevox"), {"must be absolute"});
+    expectRefused(node, "map_file", 2024, {"'2024'", "must be absolute"});
+    expectRefused(node, "map_file", none, {"cannot read the map '" + none + "'"});
+    expectRefused(node, "map_file", no_map, {"it is not a map of edgevox"});
+  }
 }
 
 TEST_F(ParametersTest, ThatAreNotKnownAreAWarning) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
+#include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/match_map.hpp"
 #include "edgevox/matching/global_search.hpp"
 #include "edgevox/ring_buffer.hpp"
@@ -33,8 +34,10 @@ class Localizer {
   bool isLooking() const { return looks_; }
 
   const MatchMap& map() const { return map_; }
-  /// What the last search has found; while poses are compared, these.
   const SearchResult& lastSearch() const { return last_search_; }
+  /// Where the sensor may be, of a sensor that is looked for: T_map_sensor of the poses that are
+  /// compared, else what the last search has found to fit best.
+  std::vector<Pose> candidates() const;
   /// For searches to come; what it points to must outlive them.
   void setControl(const SearchControl& control) { control_ = control; }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "edgevox/config.hpp"
 #include "edgevox/edges/recent_edges.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/matching/global_search.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "edgevox/tracking/scan_result.hpp"
@@ -13,7 +17,8 @@
 namespace edgevox {
 
 /// Builds a map from scans in order of time: a Tracker finds where each was taken, a MapBuilder
-/// inserts it. A scan that cannot be located changes neither the map nor the pose.
+/// inserts it. A scan that cannot be located changes neither the map nor the pose. In a map that
+/// was read from a file the sensor is looked for everywhere until it is found.
 class Mapper {
  public:
   explicit Mapper(const Config& config, Clock clock = Clock::kProcessCpu);
@@ -26,6 +31,11 @@ class Mapper {
   /// Adds the scan that track() has just located to the map, and the times that takes to its
   /// result.
   void insert(const VoxelScan& scan, ScanResult& result);
+
+  /// The next scan is looked for near this pose first.
+  void lookNear(const Pose& T_map_sensor);
+  /// For searches to come; what it points to must outlive them.
+  void setControl(const SearchControl& control) { control_ = control; }
 
   /// A copy is cheap, see MapBuilder.
   const MapBuilder& map() const { return map_; }
@@ -42,22 +52,30 @@ class Mapper {
     bytes(self.tracker_, self.map_);
     if constexpr (Archive::kReads) {
       self.recent_edges_.clear();
-      self.is_given_ = !self.map_.empty();
+      self.setGiven(!self.map_.empty());
     }
   }
 
  private:
   void clockJumped();
+  void setGiven(bool given);
   ScanResult trackInMap(const VoxelScan& scan, const ScanPrior& prior);
   ScanResult searchInMap(const VoxelScan& scan, const ScanPrior& prior, const ScanResult& lost);
+  bool findInMap(const VoxelScan& scan, const ScanPrior& prior,
+                 const std::optional<SearchRegion::Around>& around);
   bool isContradicted() const;
+  bool isSearchDue() const;
 
   Config config_;
   Clock clock_;
   Tracker tracker_;
   MapBuilder map_;
   RecentEdges recent_edges_;
-  bool is_given_ = false;  // the map: it comes from a file
+  bool is_given_ = false;     // the map: it comes from a file
+  bool is_new_here_ = false;  // the sensor: no scan was located in the given map yet
+  uint64_t lost_here_ = 0;    // scans since then
+  std::optional<SearchRegion::Around> around_;  // where it looks first
+  SearchControl control_;
 };
 
 }  // namespace edgevox

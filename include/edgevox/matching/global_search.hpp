@@ -30,6 +30,9 @@ struct SearchRegion {
     double turn = 0.0;                     ///< about its z axis [rad]
   };
   std::optional<Around> around;  ///< none: everywhere in the map
+
+  /// About a pose that somebody has pointed to: 3 m and 60 degrees.
+  static Around near(const Pose& T_map_sensor);
 };
 
 /// A pose at which many points of a scan lie in occupied voxels.
@@ -71,6 +74,8 @@ struct SearchControl {
   int threads = 1;                            ///< what is found does not depend on it
   const std::atomic<bool>* cancel = nullptr;  ///< ends the search when it becomes true
   std::atomic<int>* percent = nullptr;        ///< how far it is
+
+  bool isCancelled() const { return cancel != nullptr && *cancel; }
 };
 
 /// Finds where in a map a scan was taken, without a prediction: branch and bound over all

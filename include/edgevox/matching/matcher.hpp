@@ -66,6 +66,8 @@ enum class Refusal {
   kDisagrees,  ///< next to nothing that tells a direction of the pose fits: see agreement
   kBlocked,    ///< too many lines of sight would pass through walls
   kAmbiguous,  ///< another pose, not near it, fits as well
+  kNotFound,   ///< a search of the map has found no pose
+  kCancelled,  ///< a search was ended from outside
 };
 
 /// What the geometry around leaves open, as the way along a bare corridor.

@@ -51,6 +51,8 @@ class Tracker {
                       const std::optional<SearchRegion::Around>& around,
                       const SearchControl& control) const;
 
+  /// What keeps a scan from being located anywhere: kTooFew, kTooLarge or nothing.
+  std::optional<ScanStatus> faultOf(const VoxelScan& scan) const;
   /// The result of a scan that is refused for its stamp.
   ScanResult stale(const VoxelScan& scan, bool ahead) const;
   /// The result of a scan that is not located.
@@ -79,7 +81,6 @@ class Tracker {
   /// The next scan is predicted where the last one was.
   void forgetMotion();
   Pose firstPose(const ScanPrior& prior) const;
-  bool isTooLarge(const VoxelScan& scan) const;
   void align(const VoxelScan& scan, const SweepTime& sweep, const TrackedMap& tracked,
              SweepPose& now, ScanResult& result);
   MatchResult locate(const ScanSample& sample, const MatchRequest& request,

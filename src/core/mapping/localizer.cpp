@@ -9,10 +9,15 @@
 namespace edgevox {
 namespace {
 
-constexpr double kNearDistance = 3.0;              // along each axis [m]
-constexpr double kNearTurn = 60.0 * M_PI / 180.0;  // [rad]
 constexpr size_t kMostHypotheses = 8;
 constexpr uint64_t kLostHypothesis = 2;  // scans in a row
+
+template <typename Match>
+void takeFit(const Match& match, ScanResult& result) {
+  result.hit_ratio = match.hit_ratio;
+  result.hit_share = match.hit_share;
+  result.blocked = match.blocked;
+}
 
 }  // namespace
 
@@ -25,13 +30,25 @@ Localizer::Localizer(const Config& config, MatchMap map, Clock clock)
 
 void Localizer::lookNear(const Pose& T_map_sensor) {
   lookEverywhere();
-  around_ = SearchRegion::Around{T_map_sensor, kNearDistance, kNearTurn};
+  around_ = SearchRegion::near(T_map_sensor);
 }
 
 void Localizer::lookEverywhere() {
   looks_ = true;
   around_.reset();
   hypotheses_.clear();
+  last_search_ = {};
+}
+
+std::vector<Pose> Localizer::candidates() const {
+  std::vector<Pose> poses;
+  if (!looks_) return poses;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    poses.push_back(hypothesis.tracker.T_map_sensor());
+  }
+  if (!poses.empty()) return poses;
+  for (const MatchResult& answer : last_search_.answers) poses.push_back(answer.T_map_sensor);
+  return poses;
 }
 
 ScanResult Localizer::process(const VoxelScan& scan, const ScanPrior& prior) {
@@ -49,6 +66,7 @@ ScanResult Localizer::process(const VoxelScan& scan, const ScanPrior& prior) {
 }
 
 ScanResult Localizer::look(const VoxelScan& scan, const ScanPrior& prior) {
+  if (const auto fault = tracker_.faultOf(scan)) return tracker_.notLocated(scan, *fault);
   if (!hypotheses_.empty()) return compare(scan, prior);
   if (around_) {
     const ScanResult result = search(scan, prior, around_);
@@ -67,12 +85,9 @@ ScanResult Localizer::search(const VoxelScan& scan, const ScanPrior& prior,
     return result;
   }
   ScanResult result = tracker_.notLocated(scan, ScanStatus::kLost);
-  if (!last_search_.answers.empty()) {
-    const MatchResult& best = last_search_.answers.front();
-    result.hit_ratio = best.hit_ratio;
-    result.hit_share = best.hit_share;
-    result.blocked = best.blocked;
-  }
+  const bool cancelled = last_search_.outcome == SearchOutcome::kCancelled;
+  result.refusal = cancelled ? Refusal::kCancelled : Refusal::kNotFound;
+  if (!last_search_.answers.empty()) takeFit(last_search_.answers.front(), result);
   if (last_search_.outcome != SearchOutcome::kAmbiguous) return result;
   result.status = ScanStatus::kAmbiguous;
   for (const MatchResult& answer : last_search_.answers) {
@@ -111,9 +126,15 @@ ScanResult Localizer::compare(const VoxelScan& scan, const ScanPrior& prior) {
                     hypotheses_.end());
   if (hypotheses_.empty()) {
     lookEverywhere();
-    return tracker_.notLocated(scan, ScanStatus::kLost);
+    ScanResult result = tracker_.notLocated(scan, ScanStatus::kLost);
+    result.refusal = Refusal::kNotFound;
+    return result;
   }
-  if (hypotheses_.size() > 1) return tracker_.notLocated(scan, ScanStatus::kAmbiguous);
+  if (hypotheses_.size() > 1) {
+    ScanResult result = tracker_.notLocated(scan, ScanStatus::kAmbiguous);
+    takeFit(hypotheses_.front().result, result);
+    return result;
+  }
   tracker_ = hypotheses_.front().tracker;
   const ScanResult result = hypotheses_.front().result;
   hypotheses_.clear();

@@ -6,7 +6,8 @@
 namespace edgevox {
 namespace {
 
-constexpr uint32_t kYoung = 3;  // scans, from which on two have confirmed the first
+constexpr uint32_t kYoung = 3;         // scans, from which on two have confirmed the first
+constexpr uint64_t kSearchEvery = 10;  // scans
 
 }  // namespace
 
@@ -31,6 +32,8 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
   }
   const bool clock_jumped = order == ClockWatch::Order::kJumpedBack;
   if (clock_jumped) clockJumped();
+  if (around_ && !map_.empty()) findInMap(scan, prior, around_);
+  around_.reset();
   ScanResult result = trackInMap(scan, prior);
   if (result.status == ScanStatus::kLost && isContradicted()) {
     const bool odometry_jumped = result.odometry_jumped;
@@ -39,11 +42,9 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
     result.odometry_jumped = odometry_jumped;
     result.begun_anew = true;
   }
-  const auto search_after = static_cast<uint64_t>(config_.mapper.search_after);
-  const uint64_t lost = tracker_.lostInARow();
-  if (search_after > 0 && lost > 0 && lost % search_after == 0) {
-    result = searchInMap(scan, prior, result);
-  }
+  if (isSearchDue()) result = searchInMap(scan, prior, result);
+  if (result.located()) is_new_here_ = false;
+  if (is_new_here_) ++lost_here_;
   result.clock_jumped = clock_jumped;
   result.times.match = static_cast<float>(timer.lap());
   return result;
@@ -57,15 +58,35 @@ ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
 /// Of a sensor that is lost for long.
 ScanResult Mapper::searchInMap(const VoxelScan& scan, const ScanPrior& prior,
                                const ScanResult& lost) {
-  const SearchResult found =
-      tracker_.search(scan, prior, GlobalSearch(map_.matchMap(), config_), std::nullopt, {});
-  if (found.outcome != SearchOutcome::kFound) return lost;
   Tracker before = tracker_;
-  tracker_.setPose(found.answers.front().T_map_sensor);
-  const ScanResult result = trackInMap(scan, prior);
-  if (!result.located()) tracker_ = std::move(before);
-  return result.located() ? result : lost;
+  if (!findInMap(scan, prior, std::nullopt)) return lost;
+  ScanResult result = trackInMap(scan, prior);
+  result.odometry_jumped = lost.odometry_jumped;
+  if (result.located()) return result;
+  tracker_ = std::move(before);
+  return lost;
 }
+
+/// Puts the tracker where the sensor is found.
+bool Mapper::findInMap(const VoxelScan& scan, const ScanPrior& prior,
+                       const std::optional<SearchRegion::Around>& around) {
+  const SearchResult found =
+      tracker_.search(scan, prior, GlobalSearch(map_.matchMap(), config_), around, control_);
+  if (found.outcome != SearchOutcome::kFound) return false;
+  tracker_.setPose(found.answers.front().T_map_sensor);
+  return true;
+}
+
+/// In a given map at once, and again now and then until the sensor is found there.
+bool Mapper::isSearchDue() const {
+  const uint64_t lost = tracker_.lostInARow();
+  if (lost == 0) return false;
+  if (is_new_here_) return lost_here_ % kSearchEvery == 0;
+  const auto every = static_cast<uint64_t>(config_.mapper.search_after);
+  return every > 0 && lost % every == 0;
+}
+
+void Mapper::lookNear(const Pose& T_map_sensor) { around_ = SearchRegion::near(T_map_sensor); }
 
 /// Whether more scans speak against a young map than for it: its first ones were bad, not those
 /// that do not fit.
@@ -91,11 +112,17 @@ void Mapper::insert(const VoxelScan& scan, ScanResult& result) {
   result.times.label = static_cast<float>(timer.lap());
 }
 
+void Mapper::setGiven(bool given) {
+  is_given_ = given;
+  is_new_here_ = given;
+  lost_here_ = 0;
+}
+
 void Mapper::reset() {
   map_.clear();
   recent_edges_.clear();
   tracker_.reset();
-  is_given_ = false;
+  setGiven(false);
 }
 
 }  // namespace edgevox

@@ -42,7 +42,7 @@ std::vector<SearchNode> BranchAndBound::roots() const {
 
 /// Depth first, the children with most hits first.
 void BranchAndBound::descend(const SearchNode& node, std::vector<SearchNode>& leaves) {
-  if (node.bound < threshold() || isCancelled()) return;
+  if (node.bound < threshold() || control_.isCancelled()) return;
   if (node.height == 0) {
     if (!shifts_.holds(node.shift)) return;
     leaves.push_back(node);
@@ -84,7 +84,7 @@ std::vector<SearchNode> BranchAndBound::find(const VoxelBox& shifts) {
     for (size_t i = next++; i < roots.size(); i = next++) look(i);
   });
   std::vector<SearchNode> leaves;
-  if (isCancelled()) return leaves;
+  if (control_.isCancelled()) return leaves;
   for (const auto& of : found) {
     std::copy_if(of.begin(), of.end(), std::back_inserter(leaves),
                  [&](const SearchNode& leaf) { return leaf.bound >= threshold(); });

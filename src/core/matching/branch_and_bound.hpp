@@ -40,7 +40,6 @@ class BranchAndBound {
 
  private:
   int threshold() const;
-  bool isCancelled() const { return control_.cancel != nullptr && *control_.cancel; }
   std::vector<SearchNode> roots() const;
   void descend(const SearchNode& node, std::vector<SearchNode>& leaves);
 

@@ -22,9 +22,11 @@ constexpr double kShare = 0.85;                   // of the hits of the best can
 constexpr double kLeastShare = 0.8;               // of the evidence that is asked for in the end
 constexpr size_t kMostCandidates = 24;            // refined
 constexpr double kNear = 4.0;                     // of a better candidate [cell]
-constexpr double kNearTurn = 3.0;                 // the same [step of the grid]
+constexpr double kNearSteps = 3.0;                // the same [step of the grid]
 constexpr double kOfMisfit = 0.35;                // of what does not fit, as a margin
 constexpr double kLongestMove = 8.0;              // of a refinement [cell]
+constexpr double kNearDistance = 3.0;             // of a given pose, along each axis [m]
+constexpr double kNearTurn = 60.0 * kRadians;     // the same
 
 /// Rotations of the sensor in the map in steps of `turn` [rad].
 std::vector<Eigen::Matrix3d> rotationsIn(const SearchRegion& region, double turn) {
@@ -68,6 +70,10 @@ const char* toString(SearchOutcome outcome) {
       return "cancelled";
   }
   return "";
+}
+
+SearchRegion::Around SearchRegion::near(const Pose& T_map_sensor) {
+  return {T_map_sensor, kNearDistance, kNearTurn};
 }
 
 /// Of a place that has changed, more must speak for the best pose.
@@ -123,7 +129,7 @@ std::vector<Candidate> GlobalSearch::candidates(const ScanSample& sample,
         cell_ * Eigen::Vector3d(leaf.shift.x, leaf.shift.y, leaf.shift.z);
     candidate.hits = leaf.bound;
     const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-      return areNear(c.T_map_sensor, candidate.T_map_sensor, kNear * cell_, kNearTurn * turn);
+      return areNear(c.T_map_sensor, candidate.T_map_sensor, kNear * cell_, kNearSteps * turn);
     });
     if (known) continue;
     candidates.push_back(candidate);
@@ -158,7 +164,7 @@ SearchResult GlobalSearch::search(const ScanSample& sample, const SearchRegion& 
         });
     if (!known && match.refusal == Refusal::kNone) result.answers.push_back(match);
   }
-  if (control.cancel != nullptr && *control.cancel) {
+  if (control.isCancelled()) {
     result.outcome = SearchOutcome::kCancelled;
     result.answers.clear();
   }

@@ -74,8 +74,7 @@ ScanResult Tracker::track(const VoxelScan& scan, const ScanPrior& prior,
     result.status = status;
     return result;
   };
-  if (isTooLarge(scan)) return refused(ScanStatus::kTooLarge);
-  if (scan.voxels.size() < kFewestVoxels) return refused(ScanStatus::kTooFew);
+  if (const auto fault = faultOf(scan)) return refused(*fault);
   const SweepTime sweep = sweepTime(scan);
   SweepPose now{scan.stamp + sweep.middle(), firstPose(prior)};
   if (motion_.known() && !(now.time - motion_.last().time >= kLeastInterval)) {
@@ -115,7 +114,7 @@ SearchResult Tracker::search(const VoxelScan& scan, const ScanPrior& prior,
                              const GlobalSearch& search,
                              const std::optional<SearchRegion::Around>& around,
                              const SearchControl& control) const {
-  if (isTooLarge(scan) || scan.voxels.size() < kFewestVoxels) return {};
+  if (faultOf(scan)) return {};
   SearchRegion region;
   region.R_level_sensor = prior.T_odom_sensor.value_or(prior.T_map_first).linear();
   region.tilt = config_.search.tilt * kRadians;
@@ -124,9 +123,11 @@ SearchResult Tracker::search(const VoxelScan& scan, const ScanPrior& prior,
   return search.search(deskewed(scan, positions, {sweepTime(scan), Twist()}), region, control);
 }
 
-bool Tracker::isTooLarge(const VoxelScan& scan) const {
-  return !scan.too_large.empty() ||
-         scan.voxels.size() > static_cast<size_t>(config_.voxelizer.max_voxels);
+std::optional<ScanStatus> Tracker::faultOf(const VoxelScan& scan) const {
+  const auto most = static_cast<size_t>(config_.voxelizer.max_voxels);
+  if (!scan.too_large.empty() || scan.voxels.size() > most) return ScanStatus::kTooLarge;
+  if (scan.voxels.size() < kFewestVoxels) return ScanStatus::kTooFew;
+  return std::nullopt;
 }
 
 /// UTM coordinates, for example, are too far from their origin for a grid.

@@ -20,6 +20,14 @@ void setQuaternion(const Pose& pose, Message& message) {
   message.w = q.w();
 }
 
+template <typename Translation, typename Rotation>
+Pose poseFrom(const Translation& t, const Rotation& q) {
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+  pose.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+  return pose;
+}
+
 template <typename Array>
 void setMatrix(const Matrix6& matrix, Array& array) {
   for (int row = 0; row < 6; ++row) {
@@ -38,13 +46,10 @@ geometry_msgs::Pose toMessage(const Pose& pose) {
   return message;
 }
 
+Pose poseOf(const geometry_msgs::Pose& pose) { return poseFrom(pose.position, pose.orientation); }
+
 Pose poseOf(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& q = transform.rotation;
-  Pose pose = Pose::Identity();
-  pose.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(t.x, t.y, t.z);
-  return pose;
+  return poseFrom(transform.translation, transform.rotation);
 }
 
 geometry_msgs::TransformStamped toMessage(const Pose& T_parent_child, const std::string& parent,

@@ -13,6 +13,7 @@
 namespace edgevox {
 
 geometry_msgs::Pose toMessage(const Pose& pose);
+Pose poseOf(const geometry_msgs::Pose& pose);
 Pose poseOf(const geometry_msgs::Transform& transform);
 
 geometry_msgs::TransformStamped toMessage(const Pose& T_parent_child, const std::string& parent,

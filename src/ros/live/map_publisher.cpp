@@ -49,7 +49,6 @@ void MapPublisher::publish(const MapSnapshot& snapshot) {
 
 void MapPublisher::publishWholes(const MapSnapshot& snapshot, const std_msgs::Header& header) {
   const ros::WallTime begin = ros::WallTime::now();
-  const MapBuilder& map = snapshot.map;
   const auto take = [&](Topic& topic) {
     const bool due = topic.isDue(snapshot.version);
     if (due) topic.version = snapshot.version;
@@ -57,13 +56,11 @@ void MapPublisher::publishWholes(const MapSnapshot& snapshot, const std_msgs::He
   };
   if (take(boxes_)) {
     std::vector<VoxelIndex> voxels;
-    map.edgeVoxels().forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
-    boxes_.publisher.publish(toBoxes(voxels, map.voxelSize(0), header));
+    snapshot.edge_voxels.forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
+    boxes_.publisher.publish(toBoxes(voxels, snapshot.voxel_size, header));
   }
-  if (take(edges_)) edges_.publisher.publish(toCloud(centroidsOf(map, map.edgeVoxels()), header));
-  if (take(occupied_)) {
-    occupied_.publisher.publish(toCloud(centroidsOf(map, map.hitVoxels()), header));
-  }
+  if (take(edges_)) edges_.publisher.publish(toCloud(snapshot.edge_centroids(), header));
+  if (take(occupied_)) occupied_.publisher.publish(toCloud(snapshot.occupied_points(), header));
   const ros::WallTime end = ros::WallTime::now();
   next_wholes_ = end + ros::WallDuration((end - begin).toSec() / kWholesShare);
 }
@@ -74,8 +71,7 @@ void MapPublisher::publishUpdate(const MapSnapshot& snapshot, const std_msgs::He
   if (joined_->exchange(false) || snapshot.start != start_) box_updates_.restart();
   start_ = snapshot.start;
   update_.version = snapshot.version;
-  const auto markers =
-      box_updates_.next(snapshot.map.edgeVoxels(), snapshot.map.voxelSize(0), header);
+  const auto markers = box_updates_.next(snapshot.edge_voxels, snapshot.voxel_size, header);
   if (!markers.markers.empty()) update_.publisher.publish(markers);
 }
 

@@ -3,25 +3,16 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/time.h>
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 
-#include "edgevox/map/map_builder.hpp"
 #include "ros/conversions/box_updates.hpp"
+#include "ros/live/map_snapshot.hpp"
 
 namespace edgevox {
-
-/// A map as it was between two scans.
-struct MapSnapshot {
-  MapBuilder map;
-  uint64_t version = 0;  ///< differs whenever the map does
-  uint64_t start = 0;    ///< differs after a new start of the map or the clock
-  ros::Time stamp;       ///< of the last located scan
-};
 
 /// Publishes the map for whoever listens. Latched and whole, but seldom where that takes long:
 /// `map_edges` and `map_occupied` are centroids, `map_boxes` the edge voxels as boxes. At every

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "edgevox/io/number_text.hpp"
+#include "edgevox/io/pose_text.hpp"
 
 namespace edgevox {
 namespace {
@@ -74,46 +75,110 @@ class Assigner {
   const std::vector<Parameter>& parameters_;
 };
 
+/// The frame of the map where the nodelet has one.
+void takeFrame(NodeParameters&, const std::string&) {}
+void takeFrame(TrackingParameters& parameters, const std::string& map_frame) {
+  parameters.map_frame = map_frame;
+}
+
+void requireAbsolute(const std::string& full_name, const std::string& path) {
+  if (path.empty() || path.front() == '/') return;
+  throw ConfigError("parameter '" + full_name + "' is '" + path +
+                    "'; it must be absolute, beginning with /");
+}
+
+/// Gives errors the name of the parameter that they are of.
+template <typename Task>
+void about(const std::string& full_name, const Task& task) {
+  try {
+    task();
+  } catch (const std::exception& error) {
+    throw ConfigError("parameter '" + full_name + "': " + error.what());
+  }
+}
+
+template <typename Parameters>
+void readMap(const std::string& file, Parameters& parameters) {
+  parameters.map = std::make_shared<const MapFile>(MapFile::read(file));
+  parameters.config = parameters.map->config();
+  takeFrame(parameters, parameters.map->head().map_frame);
+}
+
 template <typename Parameters>
 Parameters readAll(const ros::NodeHandle& private_handle) {
   Parameters result;
+  const std::string space = private_handle.getNamespace() + "/";
+  const std::string map_name = space + "map_file";
+  std::string map_file;
+  if (XmlRpcValue value; ros::param::get(map_name, value)) map_file = textOf(value, map_name);
+  requireAbsolute(map_name, map_file);
+  if (!map_file.empty()) about(map_name, [&] { readMap(map_file, result); });
   std::vector<Parameter> parameters = parametersOf(result.config);
   for (const Parameter& p : nodeParametersOf(result)) parameters.push_back(p);
-  const std::string& space = private_handle.getNamespace();
   XmlRpcValue tree;
-  if (ros::param::get(space, tree) && tree.getType() == XmlRpcValue::TypeStruct) {
-    Assigner(space + "/", parameters).assignAll(tree, "");
+  if (ros::param::get(private_handle.getNamespace(), tree) &&
+      tree.getType() == XmlRpcValue::TypeStruct) {
+    Assigner(space, parameters).assignAll(tree, "");
   }
   validate(result.config);
+  if (result.map) about(map_name, [&] { result.map->requireSameMap(result.config); });
   return result;
+}
+
+void checkFrames(const std::string& space, const TrackingParameters& parameters) {
+  if (!parameters.map_frame.empty() && parameters.map_frame != parameters.frames.odom &&
+      parameters.map_frame != parameters.frames.base) {
+    return;
+  }
+  throw ConfigError("parameter '" + space + "/map_frame' is '" + parameters.map_frame +
+                    "'; it must be a name, and not that of odom_frame or base_frame");
+}
+
+std::vector<Parameter> joined(std::vector<Parameter> all, const std::vector<Parameter>& own) {
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
 }
 
 }  // namespace
 
 std::vector<Parameter> nodeParametersOf(NodeParameters& p) {
   return {{"queue_size", &p.queue_size, 1, 1000, "",
-           "scans that wait for the nodelet; of more, the oldest is dropped and counted"}};
+           "scans that wait for the nodelet; of more, the oldest is dropped and counted"},
+          {"map_file", &p.map_file, 0, 0, "",
+           "a saved map, absolute: to localize in, or to go on with; its configuration and frame "
+           "are the defaults of all others"}};
+}
+
+std::vector<Parameter> nodeParametersOf(TrackingParameters& p) {
+  return joined(
+      nodeParametersOf(static_cast<NodeParameters&>(p)),
+      {
+          {"map_frame", &p.map_frame, 0, 0, "", "name of the map's frame"},
+          {"odom_frame", &p.frames.odom, 0, 0, "",
+           "smooth odometry frame on TF: scans are predicted from it and map -> odom is "
+           "published; empty: constant velocity"},
+          {"base_frame", &p.frames.base, 0, 0, "",
+           "the robot's frame, whose pose `odom` and the trajectory hold; empty: the clouds' own"},
+          {"publish_tf", &p.publish_tf, 0, 0, "", "whether the pose goes to TF"},
+          {"transform_wait", &p.transform_wait, 0, 10, "s",
+           "how long after its arrival a scan may wait for its transforms"},
+          {"path_length", &p.path_length, 1, 1000000, "", "poses in `path`; the oldest go first"},
+          {"map_period", &p.map_period, 0.1, 3600, "s",
+           "least time between two clouds or updates of the map"},
+      });
 }
 
 std::vector<Parameter> nodeParametersOf(MapperParameters& p) {
-  std::vector<Parameter> all = nodeParametersOf(static_cast<NodeParameters&>(p));
-  const std::vector<Parameter> own = {
-      {"map_frame", &p.map_frame, 0, 0, "", "name of the map's frame"},
-      {"odom_frame", &p.frames.odom, 0, 0, "",
-       "smooth odometry frame on TF: scans are predicted from it and map -> odom is published; "
-       "empty: constant velocity"},
-      {"base_frame", &p.frames.base, 0, 0, "",
-       "the robot's frame, whose pose `odom` and the trajectory hold; empty: the clouds' own"},
-      {"publish_tf", &p.publish_tf, 0, 0, "", "whether the pose goes to TF"},
-      {"output", &p.output, 0, 0, "", "folder that `save_map` writes to, absolute"},
-      {"transform_wait", &p.transform_wait, 0, 10, "s",
-       "how long after its arrival a scan may wait for its transforms"},
-      {"path_length", &p.path_length, 1, 1000000, "", "poses in `path`; the oldest go first"},
-      {"map_period", &p.map_period, 0.1, 3600, "s",
-       "least time between two clouds or updates of the map"},
-  };
-  all.insert(all.end(), own.begin(), own.end());
-  return all;
+  return joined(nodeParametersOf(static_cast<TrackingParameters&>(p)),
+                {{"output", &p.output, 0, 0, "",
+                  "of the mapper: folder that `save_map` writes to, absolute"}});
+}
+
+std::vector<Parameter> nodeParametersOf(LocalizerParameters& p) {
+  return joined(nodeParametersOf(static_cast<TrackingParameters&>(p)),
+                {{"initial_pose", &p.initial_pose, 0, 0, "",
+                  "of the localizer: where the base is at the start, as x,y,z,yaw in metres and "
+                  "degrees; empty: anywhere in the map"}});
 }
 
 NodeParameters readNodeParameters(const ros::NodeHandle& private_handle) {
@@ -122,15 +187,19 @@ NodeParameters readNodeParameters(const ros::NodeHandle& private_handle) {
 
 MapperParameters readMapperParameters(const ros::NodeHandle& private_handle) {
   auto parameters = readAll<MapperParameters>(private_handle);
-  if (parameters.map_frame.empty() || parameters.map_frame == parameters.frames.odom ||
-      parameters.map_frame == parameters.frames.base) {
-    throw ConfigError("parameter '" + private_handle.getNamespace() + "/map_frame' is '" +
-                      parameters.map_frame +
-                      "'; it must be a name, and not that of odom_frame or base_frame");
-  }
-  if (!parameters.output.empty() && parameters.output.front() != '/') {
-    throw ConfigError("parameter '" + private_handle.getNamespace() + "/output' is '" +
-                      parameters.output + "'; it must be absolute, beginning with /");
+  const std::string& space = private_handle.getNamespace();
+  checkFrames(space, parameters);
+  requireAbsolute(space + "/output", parameters.output);
+  return parameters;
+}
+
+LocalizerParameters readLocalizerParameters(const ros::NodeHandle& private_handle) {
+  auto parameters = readAll<LocalizerParameters>(private_handle);
+  const std::string& space = private_handle.getNamespace();
+  checkFrames(space, parameters);
+  if (!parameters.initial_pose.empty() && !poseOfText(parameters.initial_pose)) {
+    throw ConfigError("parameter '" + space + "/initial_pose' is '" + parameters.initial_pose +
+                      "'; it must be x,y,z,yaw in metres and degrees");
   }
   return parameters;
 }

@@ -32,13 +32,18 @@ class ScanInput {
   };
   using Handler = std::function<void(const Arrival&)>;
 
-  ScanInput(ros::NodeHandle handle, const std::string& topic, int capacity, ThrottledLog& log,
-            Handler handler)
+  /// `begin` is called in the same thread before the first message is handled.
+  ScanInput(
+      ros::NodeHandle handle, const std::string& topic, int capacity, ThrottledLog& log,
+      Handler handler, std::function<void()> begin = [] {})
       : topic_(handle.resolveName(topic)),
         capacity_(static_cast<size_t>(capacity)),
         log_(log),
         handler_(std::move(handler)),
-        worker_([this] { work(); }),
+        worker_([this, begin = std::move(begin)] {
+          begin();
+          work();
+        }),
         subscriber_(handle.subscribe<Message>(topic, kTransportQueue, &ScanInput::receive, this,
                                               ros::TransportHints().tcpNoDelay())) {}
 

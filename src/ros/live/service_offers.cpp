@@ -21,14 +21,22 @@ void ServiceOffers::start() {
   const std::string text = missing();
   if (text.empty()) return;
   ROS_WARN_STREAM("services " << text);
+  const std::lock_guard<std::mutex> lock(mutex_);
   timer_ = handle_.createWallTimer(kPause, [this](const ros::WallTimerEvent&) { offerAll(); });
 }
 
 void ServiceOffers::offerAll() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (withdrawn_) return;
   for (Offer& offer : offers_) {
     if (!offer.server && !isTaken(offer.name)) offer.server = offer.advertise();
   }
+}
+
+void ServiceOffers::withdraw() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  withdrawn_ = true;
+  for (Offer& offer : offers_) offer.server.shutdown();
 }
 
 std::string ServiceOffers::missing() const {

@@ -28,6 +28,8 @@ class ServiceOffers {
   }
   /// Offers what was added, now or as soon as it can.
   void start();
+  /// Offers nothing any more; returns when no callback runs.
+  void withdraw();
 
   /// What keeps services from being offered and what to do, in words; empty if nothing does.
   std::string missing() const;
@@ -44,6 +46,7 @@ class ServiceOffers {
   ros::NodeHandle handle_;
   mutable std::mutex mutex_;  // of the offers
   std::vector<Offer> offers_;
+  bool withdrawn_ = false;
   ros::WallTimer timer_;
 };
 

@@ -2,10 +2,12 @@
 #include "edgevox/mapping/localizer.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "edgevox/io/map_file.hpp"
 #include "edgevox/mapping/mapper.hpp"
 #include "support/mapped_world.hpp"
 #include "support/sweeps.hpp"
@@ -110,27 +112,140 @@ TEST(Localizer, ReportsWhatDoesNotFit) {
   EXPECT_LT(result.hit_share, 0.94);
 }
 
-TEST(Mapper, LooksForALostSensorInItsMapIfAsked) {
+TEST(Localizer, TellsWhereTheSensorMayBe) {
   TwinRooms rooms;
-  rooms.config.mapper.search_after = 3;
-  Mapper mapper(rooms.config);
-  const Pose start = poseOf({4.0, 5.0, 0.0}, 0.0);
-  Pose pose = start;
-  const auto walk = [&](const Vector3d& to) {
-    for (Vector3d way = to - pose.translation(); way.norm() > 0.01; way = to - pose.translation()) {
-      pose.translation() += way.normalized() * std::min(0.25, way.norm());
-      ASSERT_TRUE(mapper.process(rooms.seenFrom(pose)).located()) << pose.translation().x();
+  Localizer localizer(rooms.config, rooms.map);
+  EXPECT_TRUE(localizer.candidates().empty());
+  const Pose truth = poseOf({3.4, 5.2, 0.0}, 0.8);
+  EXPECT_EQ(ScanStatus::kAmbiguous, localizer.process(rooms.seenFrom(truth)).status);
+  std::vector<Pose> candidates = localizer.candidates();
+  ASSERT_EQ(2U, candidates.size());
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Pose& a, const Pose& b) { return a.translation().x() < b.translation().x(); });
+  for (size_t i = 0; i < 2; ++i) {
+    const Pose twin = poseOf({3.4 + 12.0 * static_cast<double>(i), 5.2, 0.0}, 0.8);
+    EXPECT_LT(differenceOf(twin, candidates[i]).metres, 0.05) << i;
+  }
+  localizer.lookNear(truth);
+  EXPECT_TRUE(localizer.process(rooms.seenFrom(truth)).located());
+  EXPECT_TRUE(localizer.candidates().empty());
+}
+
+TEST(Localizer, SaysWhatIsWrongWithAScanWhileItLooks) {
+  TwinRooms rooms;
+  Localizer localizer(rooms.config, rooms.map);
+  VoxelScan scan = rooms.seenFrom(poseOf({20.0, 1.0, 0.0}, 0.3));
+  scan.voxels.resize(3);
+  EXPECT_EQ(ScanStatus::kTooFew, localizer.process(scan).status);
+  scan = rooms.seenFrom(poseOf({20.0, 1.0, 0.0}, 0.3));
+  scan.too_large = "more than it may have";
+  EXPECT_EQ(ScanStatus::kTooLarge, localizer.process(scan).status);
+  for (size_t i = 0; i < scan.voxels.size(); ++i) {  // no place looks like this
+    scan.voxels[i].centroid =
+        Eigen::Vector3f(0.3F * static_cast<float>(i % 30), 0.0F, 0.2F * static_cast<float>(i / 30));
+  }
+  scan.too_large.clear();
+  const ScanResult result = localizer.process(scan);
+  EXPECT_EQ(ScanStatus::kLost, result.status);
+  EXPECT_EQ(Refusal::kNotFound, result.refusal);
+}
+
+TEST(Localizer, SaysThatItsSearchWasCancelled) {
+  TwinRooms rooms;
+  Localizer localizer(rooms.config, rooms.map);
+  const std::atomic<bool> cancel{true};
+  localizer.setControl({2, &cancel});
+  const Pose truth = poseOf({20.0, 1.0, 0.0}, 0.3);
+  EXPECT_EQ(Refusal::kCancelled, localizer.process(rooms.seenFrom(truth)).refusal);
+  EXPECT_TRUE(localizer.isLooking());
+  localizer.setControl({2});
+  expectAt(truth, localizer.process(rooms.seenFrom(truth)));
+}
+
+/// Maps what a sensor sees on its way from the middle of the first room.
+class RoomsBeingMapped {
+ public:
+  explicit RoomsBeingMapped(const Config& config) : mapper_(config) {
+    rooms_.config = config;
+    EXPECT_TRUE(mapper_.process(rooms_.seenFrom(start_)).located());
+  }
+
+  void walkTo(const Vector3d& to) {
+    for (Vector3d way = to - pose_.translation(); way.norm() > 0.01;
+         way = to - pose_.translation()) {
+      pose_.translation() += way.normalized() * std::min(0.25, way.norm());
+      ASSERT_TRUE(mapper_.process(rooms_.seenFrom(pose_)).located()) << to.transpose();
     }
-  };
-  ASSERT_TRUE(mapper.process(rooms.seenFrom(start)).located());
-  walk({4.0, 1.0, 0.0});
-  walk({27.0, 1.0, 0.0});
+  }
+  /// The mapper of another process that has read its map.
+  Mapper read() const {
+    const MapFile file(mapFileBytes(MapContent::kFull, mapper_, rooms_.config, "map"), "a map");
+    Mapper mapper(rooms_.config);
+    file.restore(mapper);
+    return mapper;
+  }
+  Mapper& mapper() { return mapper_; }
+  VoxelScan seenFrom(const Pose& pose) { return rooms_.seenFrom(pose); }
+  Pose inMap(const Pose& pose) const { return start_.inverse() * pose; }
+
+ private:
+  TwinRooms rooms_;
+  const Pose start_ = poseOf({4.0, 5.0, 0.0}, 0.0);
+  Pose pose_ = start_;
+  Mapper mapper_;
+};
+
+void expectMapped(const Pose& expected, const ScanResult& result) {
+  ASSERT_TRUE(result.located()) << toString(result.status);
+  EXPECT_LT(differenceOf(expected, result.T_map_sensor).metres, 0.15);
+}
+
+TEST(Mapper, LooksForALostSensorInItsMapIfAsked) {
+  Config config;
+  config.mapper.search_after = 3;
+  RoomsBeingMapped rooms(config);
+  rooms.walkTo({4.0, 1.0, 0.0});
+  rooms.walkTo({27.0, 1.0, 0.0});
   const Pose carried = poseOf({3.4, 5.2, 0.0}, 1.0);
   for (int i = 0; i < 6; ++i) {
-    const ScanResult result = mapper.process(rooms.seenFrom(carried));
+    const ScanResult result = rooms.mapper().process(rooms.seenFrom(carried));
     ASSERT_EQ(i >= 2, result.located()) << i;
-    if (!result.located()) continue;
-    EXPECT_LT(differenceOf(start * result.T_map_sensor, carried).metres, 0.15);
+    if (result.located()) expectMapped(rooms.inMap(carried), result);
+  }
+}
+
+TEST(Mapper, GoesOnAnywhereInAGivenMap) {
+  RoomsBeingMapped rooms{Config{}};
+  rooms.walkTo({4.0, 1.0, 0.0});
+  rooms.walkTo({27.0, 1.0, 0.0});
+  Mapper mapper = rooms.read();
+  const uint32_t scans = mapper.map().scans();
+  const Pose unknown = poseOf({16.0, 6.0, 0.0}, 0.0);  // in the room that was not entered
+  EXPECT_FALSE(mapper.process(rooms.seenFrom(unknown)).located());
+  const Pose start = poseOf({3.4, 5.2, 0.0}, 1.0);
+  std::vector<ScanResult> results;
+  for (int i = 0; i < 12; ++i) results.push_back(mapper.process(rooms.seenFrom(start)));
+  expectMapped(rooms.inMap(start), results.back());
+  const auto located = static_cast<uint32_t>(
+      std::count_if(results.begin(), results.end(), [](const auto& r) { return r.located(); }));
+  EXPECT_EQ(scans + located, mapper.map().scans());
+  Mapper other = rooms.read();
+  expectMapped(rooms.inMap(start), other.process(rooms.seenFrom(start)));
+}
+
+TEST(Mapper, LooksFirstWhereItIsTold) {
+  RoomsBeingMapped rooms{Config{}};
+  rooms.walkTo({4.0, 1.0, 0.0});
+  rooms.walkTo({16.0, 1.0, 0.0});
+  rooms.walkTo({16.0, 5.0, 0.0});
+  rooms.walkTo({16.0, 1.0, 0.0});
+  rooms.walkTo({27.0, 1.0, 0.0});
+  for (const double room : {0.0, 12.0}) {
+    Mapper mapper = rooms.read();
+    const Pose truth = poseOf({room + 3.4, 5.2, 0.0}, 0.8);
+    EXPECT_FALSE(mapper.process(rooms.seenFrom(truth)).located());
+    mapper.lookNear(rooms.inMap(poseOf({room + 4.6, 4.3, 0.1}, 0.3)));
+    expectMapped(rooms.inMap(truth), mapper.process(rooms.seenFrom(truth)));
   }
 }
 

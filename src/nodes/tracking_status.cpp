@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/mapper_status.hpp"
+#include "nodes/tracking_status.hpp"
 
 #include "nodes/scan_report.hpp"
 
@@ -10,7 +10,7 @@ constexpr double kSlowLatency = 0.3;  // [s]
 
 }  // namespace
 
-void MapperStatus::add(const ScanReport& report) {
+void TrackingStatus::add(const ScanReport& report) {
   last_ = report;
   ++scans_;
   ++counts_[report.status];
@@ -27,14 +27,16 @@ void MapperStatus::add(const ScanReport& report) {
   if (report.latency > 0) latency_.add(static_cast<double>(report.latency));
 }
 
-void MapperStatus::summarise(DiagnosticStatus& status) const {
+void TrackingStatus::summarise(DiagnosticStatus& status) const {
   if (scans_ == 0) {
     status.summary(DiagnosticStatus::OK, "no scan yet");
   } else if (last_.located) {
     status.summaryf(DiagnosticStatus::OK, "%s, hit ratio %.2f", last_.status.c_str(),
                     static_cast<double>(last_.hit_ratio));
+  } else if (last_.status == "paused") {
+    status.summary(DiagnosticStatus::OK, last_.status);
   } else if (last_.status == "stale" || last_.status == "too_few") {
-    warn(last_.status + ": " + last_.text, status);
+    status.summary(DiagnosticStatus::WARN, last_.status + ": " + last_.text);
   } else {
     const std::string count = std::to_string(not_located_in_a_row_);
     const std::string word = last_.status == "lost" ? "LOST" : last_.status;
@@ -58,7 +60,7 @@ void MapperStatus::summarise(DiagnosticStatus& status) const {
   }
 }
 
-void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
+void TrackingStatus::fill(DiagnosticStatus& status) const {
   summarise(status);
   status.add("scans", scans_);
   for (const auto& [name, count] : counts_) status.add("scans " + name, count);
@@ -67,18 +69,12 @@ void MapperStatus::fill(const MapBuilder& map, DiagnosticStatus& status) const {
   status.add("scans degenerate", degenerate_);
   status.add("degenerate directions", int{last_.degenerate});
   status.add("hit ratio", last_.hit_ratio);
+  status.add("share of the scan in occupied voxels", last_.hit_share);
   status.add("required hit ratio", last_.required_hit_ratio);
   status.add("blocked lines of sight", last_.blocked);
   status.add("most blocked lines of sight", last_.most_blocked);
   status.add("matches", last_.matches);
   status.add("restarts", last_.restarts);
-  status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
-  status.add("occupied voxels of the map", map.hitVoxelCount());
-  status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);
-  status.add("frozen voxels of the map", map.frozenVoxels());
-  status.add("frozen regions of the map", map.frozenRegions());
-  status.add("centroids alone, left out", map.loneCentroids());
-  status.add("centroids past map/memory, left out", map.centroidsPastMemory());
   status.add("clouds refused before", last_.refused);
   status.add("scans dropped in all", last_.dropped);
   for (size_t i = 0; i < times_.size(); ++i) {

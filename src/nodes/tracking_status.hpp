@@ -8,22 +8,21 @@
 #include <map>
 #include <string>
 
-#include "edgevox/map/map_builder.hpp"
 #include "edgevox/stage_times.hpp"
 #include "nodes/diagnostics.hpp"
 
 namespace edgevox {
 
-/// What the mapper's diagnostics tell: how the last scans went, and what to do if they went badly.
-class MapperStatus {
+/// What the diagnostics tell of tracking: how the last scans went, and what to do if they went
+/// badly.
+class TrackingStatus {
  public:
   void add(const ScanReport& report);
   void setTransformError(const std::string& error) { transform_error_ = error; }
   void setOdometryError(const std::string& error) { odometry_error_ = error; }
 
-  /// Fills all but the input.
-  void fill(const MapBuilder& map, DiagnosticStatus& status) const;
-  uint64_t& droppedTold() { return dropped_told_; }
+  /// Fills all but the input and the map.
+  void fill(DiagnosticStatus& status) const;
 
  private:
   void summarise(DiagnosticStatus& status) const;
@@ -39,7 +38,6 @@ class MapperStatus {
   std::string odometry_error_;
   std::array<RollingTimes, kStages.size()> times_;  // of the stages
   RollingTimes latency_;
-  uint64_t dropped_told_ = 0;
 };
 
 }  // namespace edgevox

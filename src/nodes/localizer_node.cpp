@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/localizer_node.hpp"
+
+#include <geometry_msgs/PoseArray.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "edgevox/io/pose_text.hpp"
+#include "nodes/load_map.hpp"
+#include "nodes/scan_report.hpp"
+#include "ros/conversions/pose_messages.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
+
+namespace edgevox {
+
+LocalizerNode::LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                             const std::string& name)
+    : log_(name),
+      parameters_(readLocalizerParameters(private_handle)),
+      candidates_(
+          ros::NodeHandle(handle).advertise<geometry_msgs::PoseArray>("candidates", 1, true)),
+      map_publisher_(handle, parameters_.map_frame),
+      services_(handle),
+      io_(handle, parameters_, log_,
+          {[this] { begin(); },
+           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+             return locate(scan, transforms);
+           }}),
+      map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
+                                        [this](const ros::WallTimerEvent&) { publishMap(); })),
+      diagnostics_(handle, private_handle, name,
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+
+/// Services tell that the map is there.
+void LocalizerNode::begin() {
+  if (parameters_.map) {
+    try {
+      load(*parameters_.map);
+      if (const auto pose = poseOfText(parameters_.initial_pose)) io_.pointTo(*pose);
+    } catch (const std::exception& error) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      map_error_ = error.what();
+      ROS_ERROR_STREAM(map_error_);
+    }
+    parameters_.map.reset();
+  }
+  io_.addServices(services_);
+  services_.add("load_map", &LocalizerNode::loadMap, this);
+  services_.add("search", &LocalizerNode::search, this);
+  services_.start();
+}
+
+void LocalizerNode::load(const MapFile& file) {
+  auto map = std::make_shared<const MatchMap>(file.matchMap());
+  auto loaded = std::make_unique<Localizer>(parameters_.config, *map, Clock::kWall);
+  loaded->setControl({kAllProcessors, &io_.interrupted(), &percent_});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loaded_ = std::move(loaded);
+  map_ = std::move(map);
+  map_error_.clear();
+  ++map_version_;
+  io_.interrupt();
+}
+
+ScanReport LocalizerNode::locate(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+  const auto pose = io_.takePose(transforms);
+  const std::string error = takeRequests();
+  if (!error.empty()) return reportOn(scan, noMap(error));
+  if (pose) localizer_->lookNear(*pose);
+  looking_ = localizer_->isLooking();
+  const ScanResult result = localizer_->process(fromMessage(scan), transforms.prior());
+  if (result.clock_jumped) {
+    log_.warn("clock_jump", "the stamps have jumped back: the velocity is forgotten");
+  }
+  const float latency = io_.publishPose(scan, result, transforms);
+  publishCandidates(scan.header.stamp, transforms);
+  looking_ = localizer_->isLooking();
+  ScanReport report =
+      reportOn(scan, result, "tell where the sensor is ('2D Pose Estimate' in rviz)");
+  report.latency = latency;
+  return report;
+}
+
+/// Why there is no localizer; empty if there is one.
+std::string LocalizerNode::takeRequests() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (loaded_) {
+    localizer_ = std::move(loaded_);
+    io_.forgetPoses();
+  }
+  if (localizer_ && look_everywhere_) localizer_->lookEverywhere();
+  look_everywhere_ = false;
+  return map_error_;
+}
+
+/// None, once, when the sensor is found.
+void LocalizerNode::publishCandidates(const ros::Time& stamp, const ScanTransforms& transforms) {
+  const std::vector<Pose> poses = localizer_->candidates();
+  if (poses.empty() && candidate_count_ == 0) return;
+  candidate_count_ = poses.size();
+  geometry_msgs::PoseArray message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parameters_.map_frame;
+  for (const Pose& T_map_sensor : poses) {
+    message.poses.push_back(toMessage(Pose(T_map_sensor * transforms.T_base_sensor.inverse())));
+  }
+  candidates_.publish(message);
+}
+
+void LocalizerNode::publishMap() {
+  const std::lock_guard<std::mutex> publishing(publishing_);
+  io_.publishPath();
+  std::optional<MapSnapshot> snapshot;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (map_ && map_publisher_.isDue(map_version_)) {
+      snapshot = snapshotOf(map_);
+      snapshot->version = map_version_;
+      snapshot->start = map_version_;
+    }
+  }
+  if (snapshot) map_publisher_.publish(*snapshot);
+}
+
+bool LocalizerNode::loadMap(LoadMap::Request& request, LoadMap::Response& response) {
+  return answer(response, log_, [&] {
+    const MapFile file = readMapFile(request.file, parameters_.config);
+    load(file);
+    return loadedText(request.file, file) + "; the next scan is looked for everywhere in it";
+  });
+}
+
+bool LocalizerNode::search(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  look_everywhere_ = true;
+  io_.interrupt();
+  response.message = "the next scan is looked for everywhere in the map";
+  response.success = static_cast<uint8_t>(true);
+  return true;
+}
+
+void LocalizerNode::diagnose(DiagnosticStatus& status) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const std::shared_ptr<const MatchMap> map = map_;
+  const std::string map_error = map_error_;
+  lock.unlock();
+  io_.fill(status);
+  if (!map_error.empty()) status.mergeSummary(DiagnosticStatus::ERROR, map_error);
+  const size_t candidates = candidate_count_;
+  if (looking_) {
+    warn(candidates > 1
+             ? "the sensor is at one of " + std::to_string(candidates) + " places that look alike"
+             : "the sensor is looked for in the map, " + std::to_string(percent_) + " % done",
+         status);
+  }
+  if (const std::string missing = services_.missing(); !missing.empty()) {
+    warn("services " + missing, status);
+  }
+  status.add("candidates", candidates);
+  if (!map) return;
+  status.add("edge voxels of the map", map->edgeVoxels().voxelCount());
+  status.add("occupied voxels of the map", map->hitVoxels().voxelCount());
+  status.addf("map in memory [MB]", "%.2f", static_cast<double>(map->bytes()) / 1e6);
+}
+
+}  // namespace edgevox
