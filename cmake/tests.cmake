@@ -92,7 +92,7 @@ if(CATKIN_ENABLE_TESTING)
     add_dependencies(${test_target} ${PROJECT_NAME}_nodelets)
     edgevox_compile_test(${test_target} outer)
   endforeach()
-  roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES)
+  roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES IGNORE_UNSET_ARGS)
 
   # They use the network and wait for one another: not beside other tests.
   get_property(serial_tests DIRECTORY PROPERTY TESTS)

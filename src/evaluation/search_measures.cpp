@@ -114,7 +114,7 @@ std::vector<SearchTrials> measureSearch(const MatchMap& map, const Recording& re
   const size_t points = Matcher(options.config.matcher).sampleSize();
   Voxelizer voxelizer(options.config.voxelizer, options.config.voxel_size);
   std::vector<SearchTrials> methods = {{"edgevox", {}}};
-  if (pcl) methods.push_back({"FPFH, SAC-IA, ICP of PCL", {}});
+  if (pcl) methods.push_back({"FPFH + SAC-IA + ICP of PCL", {}});
   for (size_t i = 0; i < recording.scans.size(); ++i) {
     const TruePose truth = [&](double time) {
       return options.T_map_recording * recording.poseAt(i, time);

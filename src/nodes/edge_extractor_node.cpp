@@ -38,7 +38,9 @@ EdgeExtractorNode::EdgeExtractorNode(const ros::NodeHandle& handle,
       input_(handle, "voxels", parameters_.queue_size, log_,
              [this](const Input::Arrival& arrival) { process(arrival); }),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+  input_.start();
+}
 
 void EdgeExtractorNode::process(const Input::Arrival& arrival) {
   const auto refusal = refusalOf(*arrival.message, parameters_.config);

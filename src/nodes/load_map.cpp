@@ -5,12 +5,17 @@
 
 namespace edgevox {
 
-MapFile readMapFile(const std::string& file, const Config& config) {
+MapFile readMapFile(const std::string& file, const TrackingParameters& parameters) {
   if (file.empty() || file.front() != '/') {
     throw FileError("the map file '" + file + "' is not absolute; begin it with /");
   }
   MapFile map = MapFile::read(file);
-  map.requireSameMap(config);
+  map.requireSameMap(parameters.config);
+  if (map.head().map_frame != parameters.map_frame) {
+    throw ConfigError("the map '" + file + "' is in frame '" + map.head().map_frame +
+                      "', not in '" + parameters.map_frame +
+                      "': set map_frame to it and start again");
+  }
   return map;
 }
 

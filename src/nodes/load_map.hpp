@@ -8,16 +8,16 @@
 #include <exception>
 #include <string>
 
-#include "edgevox/config.hpp"
 #include "edgevox/io/map_file.hpp"
 #include "ros/conversions/scan_refusal.hpp"
+#include "ros/live/parameters.hpp"
 #include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
 
-/// A map that was built with the map's parameters of `config`. Throws FileError, MapFileError and
+/// A map of the frame and with the map's parameters of a node. Throws FileError, MapFileError and
 /// ConfigError.
-MapFile readMapFile(const std::string& file, const Config& config);
+MapFile readMapFile(const std::string& file, const TrackingParameters& parameters);
 
 std::string loadedText(const std::string& file, const MapFile& map);
 

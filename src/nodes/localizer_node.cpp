@@ -24,21 +24,27 @@ LocalizerNode::LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
       map_publisher_(handle, parameters_.map_frame),
       services_(handle),
       io_(handle, parameters_, log_,
-          {[this] { begin(); },
-           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
-             return locate(scan, transforms);
-           }}),
+          [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+            return locate(scan, transforms);
+          }),
       map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+  if (const auto pose = poseOfText(parameters_.initial_pose)) io_.pointTo(*pose);
+  io_.start([this] { begin(); });
+}
+
+LocalizerNode::~LocalizerNode() {
+  io_.end();
+  services_.withdraw();
+}
 
 /// Services tell that the map is there.
 void LocalizerNode::begin() {
   if (parameters_.map) {
     try {
       load(*parameters_.map);
-      if (const auto pose = poseOfText(parameters_.initial_pose)) io_.pointTo(*pose);
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex_);
       map_error_ = error.what();
@@ -69,18 +75,26 @@ ScanReport LocalizerNode::locate(const VoxelScanStamped& scan, const ScanTransfo
   const std::string error = takeRequests();
   if (!error.empty()) return reportOn(scan, noMap(error));
   if (pose) localizer_->lookNear(*pose);
-  looking_ = localizer_->isLooking();
+  tellState();
   const ScanResult result = localizer_->process(fromMessage(scan), transforms.prior());
   if (result.clock_jumped) {
     log_.warn("clock_jump", "the stamps have jumped back: the velocity is forgotten");
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++map_version_;  // rviz has forgotten the map
   }
   const float latency = io_.publishPose(scan, result, transforms);
+  if (result.located()) io_.publishScanEdges(localizer_->recentEdges());
   publishCandidates(scan.header.stamp, transforms);
-  looking_ = localizer_->isLooking();
+  tellState();
   ScanReport report =
       reportOn(scan, result, "tell where the sensor is ('2D Pose Estimate' in rviz)");
   report.latency = latency;
   return report;
+}
+
+void LocalizerNode::tellState() {
+  looking_ = localizer_->isLooking();
+  comparing_ = localizer_->isComparing();
 }
 
 /// Why there is no localizer; empty if there is one.
@@ -88,7 +102,7 @@ std::string LocalizerNode::takeRequests() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (loaded_) {
     localizer_ = std::move(loaded_);
-    io_.forgetPoses();
+    io_.reset();
   }
   if (localizer_ && look_everywhere_) localizer_->lookEverywhere();
   look_everywhere_ = false;
@@ -119,6 +133,7 @@ void LocalizerNode::publishMap() {
       snapshot = snapshotOf(map_);
       snapshot->version = map_version_;
       snapshot->start = map_version_;
+      snapshot->stamp = io_.lastStamp();
     }
   }
   if (snapshot) map_publisher_.publish(*snapshot);
@@ -126,19 +141,21 @@ void LocalizerNode::publishMap() {
 
 bool LocalizerNode::loadMap(LoadMap::Request& request, LoadMap::Response& response) {
   return answer(response, log_, [&] {
-    const MapFile file = readMapFile(request.file, parameters_.config);
+    const MapFile file = readMapFile(request.file, parameters_);
+    io_.forgetPlace();
     load(file);
     return loadedText(request.file, file) + "; the next scan is looked for everywhere in it";
   });
 }
 
 bool LocalizerNode::search(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  look_everywhere_ = true;
-  io_.interrupt();
-  response.message = "the next scan is looked for everywhere in the map";
-  response.success = static_cast<uint8_t>(true);
-  return true;
+  return answer(response, log_, [&] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!map_error_.empty()) throw MapFileError(map_error_);
+    look_everywhere_ = true;
+    io_.forgetPlace();
+    return std::string("the next scan is looked for everywhere in the map");
+  });
 }
 
 void LocalizerNode::diagnose(DiagnosticStatus& status) {
@@ -150,7 +167,7 @@ void LocalizerNode::diagnose(DiagnosticStatus& status) {
   if (!map_error.empty()) status.mergeSummary(DiagnosticStatus::ERROR, map_error);
   const size_t candidates = candidate_count_;
   if (looking_) {
-    warn(candidates > 1
+    warn(comparing_
              ? "the sensor is at one of " + std::to_string(candidates) + " places that look alike"
              : "the sensor is looked for in the map, " + std::to_string(percent_) + " % done",
          status);

@@ -33,13 +33,14 @@ class LocalizerNode {
   LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                 const std::string& name);
 
-  ~LocalizerNode() { services_.withdraw(); }
+  ~LocalizerNode();
 
  private:
   void begin();
   /// The localizer takes the place of that which there is at the next scan.
   void load(const MapFile& file);
   ScanReport locate(const VoxelScanStamped& scan, const ScanTransforms& transforms);
+  void tellState();
   std::string takeRequests();
   void publishCandidates(const ros::Time& stamp, const ScanTransforms& transforms);
   void publishMap();
@@ -53,6 +54,7 @@ class LocalizerNode {
   std::mutex publishing_;  // of the map
   MapPublisher map_publisher_;
   std::atomic<bool> looking_{false};
+  std::atomic<bool> comparing_{false};
   std::atomic<size_t> candidate_count_{0};
   std::atomic<int> percent_{0};           // of the search
   std::unique_ptr<Localizer> localizer_;  // of the thread of the scans

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "edgevox/io/atomic_file.hpp"
 #include "nodes/load_map.hpp"
 #include "nodes/save_run.hpp"
 #include "nodes/scan_report.hpp"
-#include "ros/conversions/map_messages.hpp"
 #include "ros/conversions/voxel_scan_message.hpp"
 
 namespace edgevox {
@@ -16,29 +16,33 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                        const std::string& name)
     : log_(name),
       parameters_(readMapperParameters(private_handle)),
-      scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       map_publisher_(handle, parameters_.map_frame),
-      mapper_(parameters_.config, Clock::kWall),
+      mapper_(newMapper()),
       services_(handle),
       io_(handle, parameters_, log_,
-          {[this] { begin(); },
-           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
-             return map(scan, transforms);
-           }}),
+          [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
+            return map(scan, transforms);
+          }),
       map_timer_(handle.createWallTimer(ros::WallDuration(parameters_.map_period),
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+  io_.start([this] { begin(); });
+}
+
+MapperNode::~MapperNode() {
+  io_.end();
+  services_.withdraw();
+}
 
 /// Services tell that the map is there.
 void MapperNode::begin() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    mapper_.setControl({kAllProcessors, &io_.interrupted()});
-  }
   if (parameters_.map) {
     try {
-      load(*parameters_.map);
+      Mapper mapper = newMapper();
+      parameters_.map->restore(mapper);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      put(std::move(mapper));
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex_);
       map_error_ = error.what();
@@ -53,14 +57,16 @@ void MapperNode::begin() {
   services_.start();
 }
 
-void MapperNode::load(const MapFile& file) {
+Mapper MapperNode::newMapper() const {
   Mapper mapper(parameters_.config, Clock::kWall);
-  file.restore(mapper);
-  const std::lock_guard<std::mutex> lock(mutex_);
+  mapper.setControl({kAllProcessors, &io_.interrupted()});
+  return mapper;
+}
+
+/// In place of the mapper there is; its mutex must be held.
+void MapperNode::put(Mapper mapper) {
   mapper_ = std::move(mapper);
-  mapper_.setControl({kAllProcessors, &io_.interrupted()});
   run_ = {};
-  io_.reset();
   map_error_.clear();
   ++map_version_;
   ++map_start_;
@@ -79,7 +85,7 @@ ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& t
   if (result.located()) {
     mapper_.insert(voxels, result);
     ++map_version_;
-    publishScanEdges(scan.header.stamp);
+    io_.publishScanEdges(mapper_.recentEdges());
   }
   if (mapper_.map().isFull()) log_.warn("map_full", fullText(parameters_.config.map));
   ScanReport report = reportOn(scan, result, "call reset for a new map");
@@ -108,14 +114,6 @@ void MapperNode::begunAnew(uint64_t scan) {
   log_.warn("begun_anew", "scan " + std::to_string(scan) + ": " + begunAnewText());
 }
 
-void MapperNode::publishScanEdges(const ros::Time& stamp) const {
-  if (scan_edges_.getNumSubscribers() == 0) return;
-  std_msgs::Header header;
-  header.stamp = stamp;
-  header.frame_id = parameters_.map_frame;
-  scan_edges_.publish(toCloud(mapper_.recentEdges().edgeCentroids(), header));
-}
-
 void MapperNode::publishMap() {
   const std::lock_guard<std::mutex> publishing(publishing_);
   io_.publishPath();
@@ -137,12 +135,14 @@ bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response)
   std::unique_lock<std::mutex> lock(mutex_);
   Mapper mapper = mapper_;
   RunRecord run = run_;
+  const std::string map_error = map_error_;
   const TrackingIo::Counts counts = io_.counts();
   lock.unlock();
   run.left_out = counts.left_out;
   run.refused = counts.refused;
   run.dropped = counts.dropped;
   return answer(response, log_, [&] {
+    if (!map_error.empty()) throw FileError("nothing is saved, as there is no map: " + map_error);
     return saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0,
                    mapper);
   });
@@ -150,20 +150,22 @@ bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response)
 
 bool MapperNode::loadMap(LoadMap::Request& request, LoadMap::Response& response) {
   return answer(response, log_, [&] {
-    const MapFile file = readMapFile(request.file, parameters_.config);
-    load(file);
+    const MapFile file = readMapFile(request.file, parameters_);
+    Mapper mapper = newMapper();
+    file.restore(mapper);
+    io_.interrupt();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    put(std::move(mapper));
+    io_.reset();
     return loadedText(request.file, file) + "; mapping goes on where the sensor is found in it";
   });
 }
 
 bool MapperNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  io_.interrupt();
   const std::lock_guard<std::mutex> lock(mutex_);
-  mapper_.reset();
+  put(newMapper());
   io_.reset();
-  run_ = {};
-  map_error_.clear();
-  ++map_version_;
-  ++map_start_;
   response.message = "the map is empty; the next scan is its first";
   response.success = static_cast<uint8_t>(true);
   return true;

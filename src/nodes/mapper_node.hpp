@@ -4,7 +4,6 @@
 #include <edgevox/LoadMap.h>
 #include <edgevox/SaveMap.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <std_srvs/Trigger.h>
 
 #include <mutex>
@@ -31,15 +30,15 @@ class MapperNode {
   MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
              const std::string& name);
 
-  ~MapperNode() { services_.withdraw(); }
+  ~MapperNode();
 
  private:
   void begin();
-  void load(const MapFile& file);
+  Mapper newMapper() const;
+  void put(Mapper mapper);
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
   void clockJumped();
   void begunAnew(uint64_t scan);
-  void publishScanEdges(const ros::Time& stamp) const;
   void publishMap();
   bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
   bool loadMap(LoadMap::Request& request, LoadMap::Response& response);
@@ -48,11 +47,10 @@ class MapperNode {
 
   ThrottledLog log_;
   MapperParameters parameters_;
-  ros::Publisher scan_edges_;
   std::mutex publishing_;  // of the map
   MapPublisher map_publisher_;
 
-  std::mutex mutex_;  // of all below, up to the input
+  std::mutex mutex_;  // of all below, up to the services
   Mapper mapper_;
   RunRecord run_;
   std::string map_error_;  // why there is no map to go on with, where there should be one

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nodes/scan_report.hpp"
+#include "ros/conversions/map_messages.hpp"
 #include "ros/conversions/pose_messages.hpp"
 #include "ros/conversions/voxel_scan_message.hpp"
 
@@ -22,34 +23,37 @@ float latencyOf(const VoxelScanStamped& scan) {
   return seconds > 0 && seconds < kLongestLatency ? static_cast<float>(seconds) : 0.0F;
 }
 
-bool isPose(const geometry_msgs::Pose& message) {
-  const auto& p = message.position;
+bool isPose(const geometry_msgs::Pose& message, double voxel_size) {
   const auto& q = message.orientation;
   const double norm = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
-  return Eigen::Vector3d(p.x, p.y, p.z).allFinite() && std::abs(norm - 1.0) < kUnitTolerance;
+  return std::abs(norm - 1.0) < kUnitTolerance && inGridRange(poseOf(message), voxel_size);
 }
 
 }  // namespace
 
 TrackingIo::TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& parameters,
-                       ThrottledLog& log, Handlers handlers)
+                       ThrottledLog& log, Locate locate)
     : parameters_(parameters),
       log_(log),
-      handlers_(std::move(handlers)),
+      handle_(handle),
+      locate_(std::move(locate)),
       transforms_(handle, ros::Duration(kTransformCache), parameters.config.mapper.clock_leap, log),
       clock_watch_(parameters.config.mapper.clock_jump, parameters.config.mapper.clock_leap),
       reports_(ros::NodeHandle(handle).advertise<ScanReport>("scan_report", 100)),
+      scan_edges_(ros::NodeHandle(handle).advertise<sensor_msgs::PointCloud2>("scan_edges", 2)),
       transformer_(SensorFrames(transforms_.transforms().buffer(), parameters.frames)),
       map_transform_(handle, transforms_.transforms(), parameters.map_frame,
                      parameters.frames.odom),
       pose_publisher_(handle, parameters.map_frame, parameters.frames.base, parameters.path_length),
-      input_(
-          handle, "voxels", parameters.queue_size, log,
-          [this](const Input::Arrival& arrival) { process(arrival); }, handlers_.begin),
-      initial_pose_(ros::NodeHandle(handle).subscribe("initialpose", 1,
-                                                      &TrackingIo::takeInitialPose, this)) {}
+      input_(handle, "voxels", parameters.queue_size, log,
+             [this](const Input::Arrival& arrival) { process(arrival); }) {}
 
-TrackingIo::~TrackingIo() {
+void TrackingIo::start(std::function<void()> begin) {
+  initial_pose_ = handle_.subscribe("initialpose", 1, &TrackingIo::takeInitialPose, this);
+  input_.start(std::move(begin));
+}
+
+void TrackingIo::end() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ending_ = true;
   interrupt();
@@ -73,7 +77,7 @@ void TrackingIo::process(const Input::Arrival& arrival) {
     return leaveOut(scan, *unusable);
   }
   const auto& usable = std::get<ScanTransforms>(transforms);
-  if (!paused_) return report(handlers_.locate(scan, usable));
+  if (!paused_) return report(locate_(scan, usable));
   publishTransform(scan, {}, usable);  // that of an odometry frame stays as it is
   leaveOut(scan, {"paused", "call resume to go on"});
 }
@@ -111,11 +115,12 @@ float TrackingIo::publishPose(const VoxelScanStamped& scan, const ScanResult& re
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.setOdometryError(transforms.odometry_error);
   if (result.located()) {
-    if (!pose_publisher_.publish(scan.header, result, transforms.T_base_sensor)) {
+    if (pose_publisher_.publish(scan.header, result, transforms.T_base_sensor)) {
+      T_map_base_ = result.T_map_sensor * transforms.T_base_sensor.inverse();
+    } else {
       log_.warn("not_finite", "the pose of " + number +
                                   " is not finite and not published; call reset for a new map");
     }
-    T_map_base_ = result.T_map_sensor * transforms.T_base_sensor.inverse();
     last_stamp_ = scan.header.stamp;
   }
   return latencyOf(scan);
@@ -128,6 +133,14 @@ void TrackingIo::publishTransform(const VoxelScanStamped& scan, const ScanResult
   const std::string error = map_transform_.publish(scan.header, result, transforms);
   status_.setTransformError(error);
   if (!error.empty()) log_.warn("transform", "no pose on TF: " + error);
+}
+
+void TrackingIo::publishScanEdges(const RecentEdges& edges) const {
+  if (scan_edges_.getNumSubscribers() == 0) return;
+  std_msgs::Header header;
+  header.stamp = lastStamp();
+  header.frame_id = parameters_.map_frame;
+  scan_edges_.publish(toCloud(edges.edgeCentroids(), header));
 }
 
 void TrackingIo::publishPath() {
@@ -163,10 +176,10 @@ void TrackingIo::takeInitialPose(const geometry_msgs::PoseWithCovarianceStamped&
   if (frame != withoutSlash(parameters_.map_frame)) {
     log_.warn("initialpose", "a pose on initialpose is in frame '" + frame + "' and not used; '" +
                                  parameters_.map_frame + "' is needed (in rviz: Fixed Frame)");
-  } else if (!isPose(message.pose.pose)) {
+  } else if (!isPose(message.pose.pose, parameters_.config.voxel_size)) {
     log_.warn("initialpose",
-              "a pose on initialpose is not finite, or its quaternion is none, and "
-              "not used");
+              "a pose on initialpose is not finite, too far from the map's origin, or its "
+              "quaternion is none, and not used");
   } else {
     pointTo(poseOf(message.pose.pose));
   }
@@ -178,9 +191,16 @@ void TrackingIo::pointTo(const Pose& T_map_base) {
   interrupt();
 }
 
+void TrackingIo::forgetPlace() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pointed_.reset();
+  T_map_base_.reset();
+  interrupt();
+}
+
 std::optional<Pose> TrackingIo::takePose(const ScanTransforms& transforms) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  interrupted_ = ending_;
+  interrupted_ = ending_ || paused_;
   if (!pointed_) return std::nullopt;
   const Pose T_map_sensor = *pointed_ * transforms.T_base_sensor;
   pointed_.reset();

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 
+#include "edgevox/edges/recent_edges.hpp"
 #include "edgevox/tracking/clock_watch.hpp"
 #include "edgevox/tracking/scan_result.hpp"
 #include "nodes/tracking_status.hpp"
@@ -36,12 +37,8 @@ namespace edgevox {
 /// several threads.
 class TrackingIo {
  public:
-  struct Handlers {
-    /// Called once, before the first scan, in the thread of the scans.
-    std::function<void()> begin;
-    /// Locates a scan, calls publishPose() and gives the scan's report.
-    std::function<ScanReport(const VoxelScanStamped&, const ScanTransforms&)> locate;
-  };
+  /// Locates a scan, calls publishPose() and gives the scan's report.
+  using Locate = std::function<ScanReport(const VoxelScanStamped&, const ScanTransforms&)>;
   /// Of the scans so far.
   struct Counts {
     std::map<std::string, size_t> left_out;  // by reason
@@ -49,11 +46,14 @@ class TrackingIo {
     uint64_t dropped = 0;
   };
 
-  /// `parameters` and `log` must outlive this. The handlers may be called from construction to
-  /// destruction.
+  /// `parameters` and `log` must outlive this.
   TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& parameters, ThrottledLog& log,
-             Handlers handlers);
-  ~TrackingIo();
+             Locate locate);
+
+  /// Takes scans from now on. `begin` is called before the first one, in their thread.
+  void start(std::function<void()> begin);
+  /// Interrupts what is going on and all that is to come, before this is destroyed.
+  void end();
 
   /// Adds `pause` and `resume`.
   void addServices(ServiceOffers& services);
@@ -62,12 +62,16 @@ class TrackingIo {
   /// arrival of the cloud; 0 if that is not known [s].
   float publishPose(const VoxelScanStamped& scan, const ScanResult& result,
                     const ScanTransforms& transforms);
+  /// To `scan_edges`, of the last located scan.
+  void publishScanEdges(const RecentEdges& edges) const;
   void publishPath();
 
   /// Where the sensor is told to be, at most once for each time that it is: by `initialpose`,
   /// pointTo() or, after a pause, where it was.
   std::optional<Pose> takePose(const ScanTransforms& transforms);
   void pointTo(const Pose& T_map_base);
+  /// Forgets what takePose() would give now or after a pause, and interrupts.
+  void forgetPlace();
 
   /// Becomes true when a search that is going on has lost its point, and false by takePose().
   const std::atomic<bool>& interrupted() const { return interrupted_; }
@@ -101,10 +105,12 @@ class TrackingIo {
 
   const TrackingParameters& parameters_;
   ThrottledLog& log_;
-  Handlers handlers_;
+  ros::NodeHandle handle_;
+  Locate locate_;
   TransformInput transforms_;
   ClockWatch clock_watch_;
   ros::Publisher reports_;
+  ros::Publisher scan_edges_;
   std::atomic<bool> interrupted_{false};
   std::atomic<bool> paused_{false};
 

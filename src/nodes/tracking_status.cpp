@@ -17,7 +17,8 @@ void TrackingStatus::add(const ScanReport& report) {
   if (report.odometry_jumped != 0) ++odometry_jumps_;
   if (report.begun_anew != 0) ++begun_anew_;
   if (report.degenerate != 0) ++degenerate_;
-  not_located_in_a_row_ = report.located ? 0 : not_located_in_a_row_ + 1;
+  if (report.located) not_located_in_a_row_ = 0;
+  if (!report.located && report.status != "paused") ++not_located_in_a_row_;
   if (!report.located) return;
   const StageTimes times = timesOf(report);
   for (size_t i = 0; i < kStages.size(); ++i) {

@@ -19,7 +19,9 @@ VoxelizerNode::VoxelizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
       input_(handle, "points", parameters_.queue_size, log_,
              [this](const Input::Arrival& arrival) { process(arrival); }),
       diagnostics_(handle, private_handle, name,
-                   [this](DiagnosticStatus& status) { diagnose(status); }) {}
+                   [this](DiagnosticStatus& status) { diagnose(status); }) {
+  input_.start();
+}
 
 void VoxelizerNode::process(const Input::Arrival& arrival) {
   const CloudReading reading = readCloud(*arrival.message);

@@ -238,6 +238,10 @@ TEST_F(LocalizerTest, PausesAndResumes) {
   EXPECT_EQ(1U, odometry_.count());
   EXPECT_TRUE(hasWords(trigger("resume"), {"near the last pose"}));
   expectSeen(rooms(), poseOf({21.5, 1.1, 0.0}, 0.8));
+  trigger("pause");
+  trigger("search");
+  EXPECT_TRUE(hasWords(trigger("resume"), {"the next scan is used"}));
+  expectSeen(rooms(), in_hall_);
 }
 
 TEST_F(LocalizerTest, KeepsItsMapIfItCannotLoadAnother) {
@@ -253,6 +257,10 @@ TEST_F(LocalizerTest, KeepsItsMapIfItCannotLoadAnother) {
   const std::string coarse =
       saved("coarse.edgevox", mapFileBytes(mapFrom(rooms(), {in_hall_}, other), other, "map", 1));
   expectRefused(coarse, {"coarse.edgevox", "voxel_size = 0.4", "which is 0.2 now"});
+  const Config config;
+  const std::string moved = saved(
+      "moved.edgevox", mapFileBytes(mapFrom(rooms(), {in_hall_}, config), config, "world", 1));
+  expectRefused(moved, {"moved.edgevox", "frame 'world', not in 'map'"});
   expectSeen(rooms(), in_hall_);
 }
 
@@ -271,6 +279,7 @@ TEST_F(LocalizerTest, WaitsForAMap) {
   start(100, "localizer");
   expectService("load_map");
   EXPECT_EQ("no_map", see(rooms(), in_hall_));
+  EXPECT_FALSE(call("search", std_srvs::Trigger()).success);
   EXPECT_TRUE(hasWords(reports_.messages().back()->text, {"call load_map"}));
   EXPECT_TRUE(tells("localizer", Status::ERROR, {"no map"}));
   EXPECT_TRUE(loadMap(twinMap()).success);

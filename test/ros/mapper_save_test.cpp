@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "edgevox/io/atomic_file.hpp"
 #include "edgevox/io/map_file.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "ros/mapper_fixture.hpp"
@@ -155,6 +156,27 @@ TEST_F(SaveTest, AFullMapGoesOnAsTheMapperDoes) {
     const ScanResult found = resumed.process(fromMessage(scans()[i]));
     EXPECT_TRUE(sameBits(expected.T_map_sensor, found.T_map_sensor)) << i;
   }
+}
+
+TEST_F(SaveTest, SavesNothingWhereTheMapToGoOnWithCannotBeRead) {
+  Mapper mapper{Config{}};
+  for (const VoxelScanStamped& scan : firstScans(3)) mapper.process(fromMessage(scan));
+  mapper.finishLabels();
+  const fs::path file = folder_ / "map.edgevox";
+  writeFile(file, mapFileBytes(MapContent::kCompact, mapper, Config{}, "map"));
+  const std::string before = contentOf(file);
+  setParameter("mapper", "map_file", file.string());
+  setParameter("mapper", "output", folder_.path().string());
+  start();
+  expectService("load_map");
+  map(firstScans(2));
+  EXPECT_EQ("no_map", lastStatus());
+  EXPECT_TRUE(tells("mapper", Status::ERROR, {"is compact", "save a full one"}));
+  expectRefused("", {"nothing is saved", "is compact"});
+  EXPECT_TRUE(before == contentOf(file));
+  call("reset", std_srvs::Trigger());
+  map({scans()[2]});
+  EXPECT_EQ("first", lastStatus());
 }
 
 TEST_F(SaveTest, SaysWhatIsWrongWithAFolder) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
+#include "edgevox/edges/recent_edges.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/match_map.hpp"
 #include "edgevox/matching/global_search.hpp"
@@ -24,16 +25,26 @@ class Localizer {
  public:
   /// The first scan is looked for everywhere.
   Localizer(const Config& config, MatchMap map, Clock clock = Clock::kProcessCpu);
+  /// The same for a sensor that `tracker` has lost.
+  Localizer(const Config& config, MatchMap map, Tracker tracker, Clock clock);
 
   ScanResult process(const VoxelScan& scan, const ScanPrior& prior = {});
+  /// process() of a scan whose stamp is in time; without its times.
+  ScanResult locate(const VoxelScan& scan, const ScanPrior& prior);
 
   /// The next scan is looked for near this pose, and if it is not there, everywhere.
   void lookNear(const Pose& T_map_sensor);
   /// The next scan is looked for everywhere.
   void lookEverywhere();
   bool isLooking() const { return looks_; }
+  /// It looks, and several poses fit alike.
+  bool isComparing() const { return !hypotheses_.empty(); }
 
   const MatchMap& map() const { return map_; }
+  /// Of the sensor where it is found.
+  const Tracker& tracker() const { return tracker_; }
+  /// The edges of the last located scan, by it and those before it.
+  const RecentEdges& recentEdges() const { return recent_edges_; }
   const SearchResult& lastSearch() const { return last_search_; }
   /// Where the sensor may be, of a sensor that is looked for: T_map_sensor of the poses that are
   /// compared, else what the last search has found to fit best.
@@ -63,6 +74,7 @@ class Localizer {
   Clock clock_;
   Tracker tracker_;
   MatchMap map_;
+  RecentEdges recent_edges_;
   GlobalSearch search_;
   SearchControl control_;
   SearchResult last_search_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "edgevox/config.hpp"
 #include "edgevox/edges/recent_edges.hpp"
 #include "edgevox/grid/voxel.hpp"
 #include "edgevox/map/map_builder.hpp"
+#include "edgevox/mapping/localizer.hpp"
 #include "edgevox/matching/global_search.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 #include "edgevox/stage_timer.hpp"
@@ -57,14 +58,24 @@ class Mapper {
   }
 
  private:
+  /// Looks for the sensor in the map there is; a copy of the mapper has none.
+  struct Finder {
+    Finder() = default;
+    Finder(const Finder&) {}
+    Finder(Finder&&) = default;
+    Finder& operator=(Finder&&) = default;
+
+    std::unique_ptr<Localizer> localizer;
+  };
+
   void clockJumped();
   void setGiven(bool given);
+  ScanResult locate(const VoxelScan& scan, const ScanPrior& prior);
   ScanResult trackInMap(const VoxelScan& scan, const ScanPrior& prior);
-  ScanResult searchInMap(const VoxelScan& scan, const ScanPrior& prior, const ScanResult& lost);
-  bool findInMap(const VoxelScan& scan, const ScanPrior& prior,
-                 const std::optional<SearchRegion::Around>& around);
+  std::optional<ScanResult> searchInMap(const VoxelScan& scan, const ScanPrior& prior);
+  std::optional<ScanResult> lookInMap(const VoxelScan& scan, const ScanPrior& prior);
+  void look();
   bool isContradicted() const;
-  bool isSearchDue() const;
 
   Config config_;
   Clock clock_;
@@ -73,8 +84,7 @@ class Mapper {
   RecentEdges recent_edges_;
   bool is_given_ = false;     // the map: it comes from a file
   bool is_new_here_ = false;  // the sensor: no scan was located in the given map yet
-  uint64_t lost_here_ = 0;    // scans since then
-  std::optional<SearchRegion::Around> around_;  // where it looks first
+  Finder finder_;
   SearchControl control_;
 };
 

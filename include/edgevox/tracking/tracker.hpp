@@ -64,6 +64,8 @@ class Tracker {
   Eigen::Vector3d sensor() const { return motion_.last().T_map_sensor.translation(); }
   const Pose& T_map_sensor() const { return motion_.T_map_sensor(); }
 
+  /// Infinite if it is not known.
+  double secondsSinceLocated(double stamp) const;
   uint64_t lostInARow() const { return lost_in_a_row_; }
 
   /// The sensor is here, and not lost any more; how it moves is not known.

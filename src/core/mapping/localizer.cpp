@@ -12,6 +12,10 @@ namespace {
 constexpr size_t kMostHypotheses = 8;
 constexpr uint64_t kLostHypothesis = 2;  // scans in a row
 
+bool isUnusable(ClockWatch::Order order) {
+  return order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead;
+}
+
 template <typename Match>
 void takeFit(const Match& match, ScanResult& result) {
   result.hit_ratio = match.hit_ratio;
@@ -22,10 +26,14 @@ void takeFit(const Match& match, ScanResult& result) {
 }  // namespace
 
 Localizer::Localizer(const Config& config, MatchMap map, Clock clock)
+    : Localizer(config, std::move(map), Tracker(config), clock) {}
+
+Localizer::Localizer(const Config& config, MatchMap map, Tracker tracker, Clock clock)
     : config_(config),
       clock_(clock),
-      tracker_(config),
+      tracker_(std::move(tracker)),
       map_(std::move(map)),
+      recent_edges_(config.voxel_size, config.edges, config.mapper.edge_window, config.threads),
       search_(map_, config) {}
 
 void Localizer::lookNear(const Pose& T_map_sensor) {
@@ -38,6 +46,7 @@ void Localizer::lookEverywhere() {
   around_.reset();
   hypotheses_.clear();
   last_search_ = {};
+  recent_edges_.clear();
 }
 
 std::vector<Pose> Localizer::candidates() const {
@@ -54,14 +63,18 @@ std::vector<Pose> Localizer::candidates() const {
 ScanResult Localizer::process(const VoxelScan& scan, const ScanPrior& prior) {
   StageTimer timer(clock_);
   const ClockWatch::Order order = tracker_.checkStamp(scan.stamp);
-  if (order == ClockWatch::Order::kLate || order == ClockWatch::Order::kAhead) {
-    return tracker_.stale(scan, order == ClockWatch::Order::kAhead);
-  }
+  if (isUnusable(order)) return tracker_.stale(scan, order == ClockWatch::Order::kAhead);
+  ScanResult result = locate(scan, prior);
+  result.clock_jumped = result.clock_jumped || order == ClockWatch::Order::kJumpedBack;
+  result.times.match = static_cast<float>(timer.lap());
+  return result;
+}
+
+ScanResult Localizer::locate(const VoxelScan& scan, const ScanPrior& prior) {
   ScanResult result = looks_ ? look(scan, prior) : tracker_.track(scan, prior, {map_});
   const auto search_after = static_cast<uint64_t>(config_.localizer.search_after);
   if (!looks_ && search_after > 0 && tracker_.lostInARow() >= search_after) lookEverywhere();
-  result.clock_jumped = order == ClockWatch::Order::kJumpedBack;
-  result.times.match = static_cast<float>(timer.lap());
+  if (result.located()) recent_edges_.add(tracker_.placed(scan));
   return result;
 }
 
@@ -113,6 +126,15 @@ double Localizer::Hypothesis::meanEvidence() const {
 
 /// Drops what does not fit any more, or less well than the best over a few scans.
 ScanResult Localizer::compare(const VoxelScan& scan, const ScanPrior& prior) {
+  ClockWatch::Order order = ClockWatch::Order::kInTime;
+  for (Hypothesis& hypothesis : hypotheses_) order = hypothesis.tracker.checkStamp(scan.stamp);
+  if (isUnusable(order)) return tracker_.stale(scan, order == ClockWatch::Order::kAhead);
+  if (order == ClockWatch::Order::kJumpedBack) {
+    lookEverywhere();
+    ScanResult result = search(scan, prior, std::nullopt);
+    result.clock_jumped = true;
+    return result;
+  }
   double best = 0.0;
   for (Hypothesis& hypothesis : hypotheses_) {
     follow(scan, prior, hypothesis);

@@ -6,8 +6,8 @@
 namespace edgevox {
 namespace {
 
-constexpr uint32_t kYoung = 3;         // scans, from which on two have confirmed the first
-constexpr uint64_t kSearchEvery = 10;  // scans
+constexpr uint32_t kYoung = 3;     // scans, from which on two have confirmed the first
+constexpr double kLongAgo = 10.0;  // the sensor may have been moved since [s]
 
 }  // namespace
 
@@ -32,22 +32,53 @@ ScanResult Mapper::track(const VoxelScan& scan, const ScanPrior& prior) {
   }
   const bool clock_jumped = order == ClockWatch::Order::kJumpedBack;
   if (clock_jumped) clockJumped();
-  if (around_ && !map_.empty()) findInMap(scan, prior, around_);
-  around_.reset();
+  ScanResult result = locate(scan, prior);
+  if (result.located()) is_new_here_ = false;
+  result.clock_jumped = clock_jumped;
+  result.times.match = static_cast<float>(timer.lap());
+  return result;
+}
+
+ScanResult Mapper::locate(const VoxelScan& scan, const ScanPrior& prior) {
+  if (is_new_here_ && !(tracker_.secondsSinceLocated(scan.stamp) <= kLongAgo) &&
+      !finder_.localizer) {
+    look();
+  }
+  if (const auto found = lookInMap(scan, prior)) return *found;
   ScanResult result = trackInMap(scan, prior);
+  if (result.status != ScanStatus::kLost && result.status != ScanStatus::kAmbiguous) return result;
   if (result.status == ScanStatus::kLost && isContradicted()) {
     const bool odometry_jumped = result.odometry_jumped;
     reset();
     result = trackInMap(scan, prior);
     result.odometry_jumped = odometry_jumped;
     result.begun_anew = true;
+  } else if (is_new_here_) {
+    look();
+  } else if (auto found = searchInMap(scan, prior)) {
+    found->odometry_jumped = result.odometry_jumped;
+    return *found;
   }
-  if (isSearchDue()) result = searchInMap(scan, prior, result);
-  if (result.located()) is_new_here_ = false;
-  if (is_new_here_) ++lost_here_;
-  result.clock_jumped = clock_jumped;
-  result.times.match = static_cast<float>(timer.lap());
   return result;
+}
+
+/// Of a sensor that is looked for. None if it is to be tracked as before: where somebody has told
+/// its place in a map that is being built, one scan decides, unless poses are to be compared.
+std::optional<ScanResult> Mapper::lookInMap(const VoxelScan& scan, const ScanPrior& prior) {
+  if (!finder_.localizer) return std::nullopt;
+  Localizer& finder = *finder_.localizer;
+  finder.setControl(control_);
+  const ScanResult result = finder.locate(scan, prior);
+  if (result.located()) {
+    tracker_ = finder.tracker();
+    finder_ = {};
+    return result;
+  }
+  if (is_new_here_ || finder.isComparing() || tracker_.faultOf(scan) || control_.isCancelled()) {
+    return result;
+  }
+  finder_ = {};
+  return std::nullopt;
 }
 
 ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
@@ -55,38 +86,31 @@ ScanResult Mapper::trackInMap(const VoxelScan& scan, const ScanPrior& prior) {
       scan, prior, {map_.matchMap(), map_.empty(), map_.scans(), [this] { map_.prepareAll(); }});
 }
 
-/// Of a sensor that is lost for long.
-ScanResult Mapper::searchInMap(const VoxelScan& scan, const ScanPrior& prior,
-                               const ScanResult& lost) {
+/// Of a sensor that is lost for long, if that is asked for; nothing is changed if it is not found.
+std::optional<ScanResult> Mapper::searchInMap(const VoxelScan& scan, const ScanPrior& prior) {
+  const auto every = static_cast<uint64_t>(config_.mapper.search_after);
+  if (every == 0 || tracker_.lostInARow() % every != 0) return std::nullopt;
+  const SearchResult found =
+      tracker_.search(scan, prior, GlobalSearch(map_.matchMap(), config_), std::nullopt, control_);
+  if (found.outcome != SearchOutcome::kFound) return std::nullopt;
   Tracker before = tracker_;
-  if (!findInMap(scan, prior, std::nullopt)) return lost;
-  ScanResult result = trackInMap(scan, prior);
-  result.odometry_jumped = lost.odometry_jumped;
+  tracker_.setPose(found.answers.front().T_map_sensor);
+  const ScanResult result = trackInMap(scan, prior);
   if (result.located()) return result;
   tracker_ = std::move(before);
-  return lost;
+  return std::nullopt;
 }
 
-/// Puts the tracker where the sensor is found.
-bool Mapper::findInMap(const VoxelScan& scan, const ScanPrior& prior,
-                       const std::optional<SearchRegion::Around>& around) {
-  const SearchResult found =
-      tracker_.search(scan, prior, GlobalSearch(map_.matchMap(), config_), around, control_);
-  if (found.outcome != SearchOutcome::kFound) return false;
-  tracker_.setPose(found.answers.front().T_map_sensor);
-  return true;
+void Mapper::look() {
+  map_.prepareAll();
+  finder_.localizer = std::make_unique<Localizer>(config_, map_.matchMap(), tracker_, clock_);
 }
 
-/// In a given map at once, and again now and then until the sensor is found there.
-bool Mapper::isSearchDue() const {
-  const uint64_t lost = tracker_.lostInARow();
-  if (lost == 0) return false;
-  if (is_new_here_) return lost_here_ % kSearchEvery == 0;
-  const auto every = static_cast<uint64_t>(config_.mapper.search_after);
-  return every > 0 && lost % every == 0;
+void Mapper::lookNear(const Pose& T_map_sensor) {
+  if (map_.empty()) return;
+  look();
+  finder_.localizer->lookNear(T_map_sensor);
 }
-
-void Mapper::lookNear(const Pose& T_map_sensor) { around_ = SearchRegion::near(T_map_sensor); }
 
 /// Whether more scans speak against a young map than for it: its first ones were bad, not those
 /// that do not fit.
@@ -99,6 +123,7 @@ void Mapper::clockJumped() {
     reset();
   } else {
     recent_edges_.clear();
+    if (finder_.localizer) look();
   }
 }
 
@@ -115,7 +140,7 @@ void Mapper::insert(const VoxelScan& scan, ScanResult& result) {
 void Mapper::setGiven(bool given) {
   is_given_ = given;
   is_new_here_ = given;
-  lost_here_ = 0;
+  finder_ = {};
 }
 
 void Mapper::reset() {

@@ -140,6 +140,7 @@ std::vector<Candidate> GlobalSearch::candidates(const ScanSample& sample,
 
 SearchResult GlobalSearch::search(const ScanSample& sample, const SearchRegion& region,
                                   const SearchControl& control) const {
+  if (control.percent != nullptr) *control.percent = 0;
   const auto points = std::min(sample.size(), static_cast<size_t>(config_.points));
   const ScanSample few(sample.begin(), sample.begin() + static_cast<ptrdiff_t>(points));
   const double least = kLeastShare * config_.min_evidence * static_cast<double>(points);
@@ -147,6 +148,7 @@ SearchResult GlobalSearch::search(const ScanSample& sample, const SearchRegion& 
       candidates(few, region, kShare, static_cast<int>(std::ceil(least)), kMostCandidates, control);
   std::vector<MatchResult> matches(found.size());
   parallelFor(found.size(), control.threads, [&](size_t i) {
+    if (control.isCancelled()) return;
     MatchRequest request;
     request.guess.T_map_sensor = found[i].T_map_sensor;
     request.max_translation = kLongestMove * cell_;

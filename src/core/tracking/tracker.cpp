@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/scan/scan_sample.hpp"
 
@@ -62,7 +63,9 @@ Tracker::Tracker(const Config& config)
 
 ClockWatch::Order Tracker::checkStamp(double stamp) {
   const ClockWatch::Order order = clock_watch_.check(stamp);
-  if (order == ClockWatch::Order::kJumpedBack) forgetMotion();
+  if (order != ClockWatch::Order::kJumpedBack) return order;
+  forgetMotion();
+  clock_watch_.accept(stamp);
   return order;
 }
 
@@ -121,6 +124,10 @@ SearchResult Tracker::search(const VoxelScan& scan, const ScanPrior& prior,
   region.around = around;
   const auto positions = sampleVoxels(scan, matcher_.sampleSize());
   return search.search(deskewed(scan, positions, {sweepTime(scan), Twist()}), region, control);
+}
+
+double Tracker::secondsSinceLocated(double stamp) const {
+  return motion_.known() ? stamp - motion_.last().time : std::numeric_limits<double>::infinity();
 }
 
 std::optional<ScanStatus> Tracker::faultOf(const VoxelScan& scan) const {

@@ -182,7 +182,9 @@ std::vector<Parameter> nodeParametersOf(LocalizerParameters& p) {
 }
 
 NodeParameters readNodeParameters(const ros::NodeHandle& private_handle) {
-  return readAll<NodeParameters>(private_handle);
+  auto parameters = readAll<NodeParameters>(private_handle);
+  parameters.map.reset();  // only its configuration is of use
+  return parameters;
 }
 
 MapperParameters readMapperParameters(const ros::NodeHandle& private_handle) {
@@ -197,9 +199,11 @@ LocalizerParameters readLocalizerParameters(const ros::NodeHandle& private_handl
   auto parameters = readAll<LocalizerParameters>(private_handle);
   const std::string& space = private_handle.getNamespace();
   checkFrames(space, parameters);
-  if (!parameters.initial_pose.empty() && !poseOfText(parameters.initial_pose)) {
+  const auto pose = poseOfText(parameters.initial_pose);
+  const bool usable = pose && inGridRange(*pose, parameters.config.voxel_size);
+  if (!parameters.initial_pose.empty() && !usable) {
     throw ConfigError("parameter '" + space + "/initial_pose' is '" + parameters.initial_pose +
-                      "'; it must be x,y,z,yaw in metres and degrees");
+                      "'; it must be x,y,z,yaw in metres and degrees, in the map");
   }
   return parameters;
 }

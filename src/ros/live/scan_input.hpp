@@ -20,7 +20,7 @@ namespace edgevox {
 
 /// A subscription whose messages are handled one after another in a thread of its own, so that no
 /// callback blocks. If more than `capacity` wait, the oldest is dropped and counted. The handler
-/// may be called from construction to destruction: make this the last member.
+/// may be called from start() to destruction: make this the last member.
 template <typename Message>
 class ScanInput {
  public:
@@ -32,20 +32,25 @@ class ScanInput {
   };
   using Handler = std::function<void(const Arrival&)>;
 
-  /// `begin` is called in the same thread before the first message is handled.
-  ScanInput(
-      ros::NodeHandle handle, const std::string& topic, int capacity, ThrottledLog& log,
-      Handler handler, std::function<void()> begin = [] {})
-      : topic_(handle.resolveName(topic)),
+  ScanInput(const ros::NodeHandle& handle, const std::string& topic, int capacity,
+            ThrottledLog& log, Handler handler)
+      : handle_(handle),
+        topic_(handle.resolveName(topic)),
         capacity_(static_cast<size_t>(capacity)),
         log_(log),
-        handler_(std::move(handler)),
-        worker_([this, begin = std::move(begin)] {
-          begin();
-          work();
-        }),
-        subscriber_(handle.subscribe<Message>(topic, kTransportQueue, &ScanInput::receive, this,
-                                              ros::TransportHints().tcpNoDelay())) {}
+        handler_(std::move(handler)) {}
+
+  /// From now to destruction the handler is called; before the first message `begin`, in the same
+  /// thread. To be called once.
+  void start(std::function<void()> begin = [] {}) {
+    subscriber_ = handle_.subscribe<Message>(topic_, kTransportQueue, &ScanInput::receive, this,
+                                             ros::TransportHints().tcpNoDelay());
+    worker_ = std::thread([this, begin = std::move(begin)] {
+      guarded("the node could not begin", begin);
+      begun_ = true;
+      work();
+    });
+  }
 
   ~ScanInput() {
     subscriber_.shutdown();
@@ -54,7 +59,7 @@ class ScanInput {
       stopping_ = true;
     }
     arrived_.notify_all();
-    worker_.join();
+    if (worker_.joinable()) worker_.join();
   }
   ScanInput(const ScanInput&) = delete;
   ScanInput& operator=(const ScanInput&) = delete;
@@ -86,7 +91,7 @@ class ScanInput {
       waiting_.push_back({message, ros::WallTime::now(), received_++});
     }
     arrived_.notify_one();
-    if (!full) return;
+    if (!full || !begun_) return;
     log_.warn("dropped", "scans from '" + topic_ + "' are dropped, " + std::to_string(dropped_) +
                              " so far, as they come faster than they are used; choose a larger "
                              "voxel_size or a slower rate");
@@ -102,21 +107,28 @@ class ScanInput {
         next = std::move(waiting_.front());
         waiting_.pop_front();
       }
-      try {
-        handler_(next);
-      } catch (const std::exception& error) {
-        log_.warn("exception", "scan " + std::to_string(next.number) + " from '" + topic_ +
-                                   "' was given up: " + error.what());
-      }
+      guarded("scan " + std::to_string(next.number) + " from '" + topic_ + "' was given up",
+              [&] { handler_(next); });
     }
   }
 
+  template <typename Task>
+  void guarded(const std::string& failure, const Task& task) {
+    try {
+      task();
+    } catch (const std::exception& error) {
+      log_.warn("exception", failure + ": " + error.what());
+    }
+  }
+
+  ros::NodeHandle handle_;
   std::string topic_;
   size_t capacity_;
   ThrottledLog& log_;
   Handler handler_;
   InputMonitor monitor_;
   std::atomic<uint64_t> dropped_{0};
+  std::atomic<bool> begun_{false};
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;
   std::condition_variable arrived_;

@@ -19,9 +19,9 @@ bool isTaken(const std::string& name) {
 void ServiceOffers::start() {
   offerAll();
   const std::string text = missing();
-  if (text.empty()) return;
-  ROS_WARN_STREAM("services " << text);
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (text.empty() || withdrawn_) return;
+  ROS_WARN_STREAM("services " << text);
   timer_ = handle_.createWallTimer(kPause, [this](const ros::WallTimerEvent&) { offerAll(); });
 }
 

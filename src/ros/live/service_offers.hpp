@@ -13,7 +13,7 @@ namespace edgevox {
 
 /// Services that are offered as soon as their names are free. A process cannot offer a name twice,
 /// and a nodelet that is unloaded while one of its callbacks runs lives, and keeps its names, until
-/// that has ended. Never blocks. Safe to use from several threads.
+/// that has ended. Safe to use from several threads.
 class ServiceOffers {
  public:
   explicit ServiceOffers(const ros::NodeHandle& handle) : handle_(handle) {}
@@ -28,7 +28,7 @@ class ServiceOffers {
   }
   /// Offers what was added, now or as soon as it can.
   void start();
-  /// Offers nothing any more; returns when no callback runs.
+  /// Offers nothing any more; waits for callbacks that run.
   void withdraw();
 
   /// What keeps services from being offered and what to do, in words; empty if nothing does.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -150,6 +151,22 @@ TEST(Localizer, SaysWhatIsWrongWithAScanWhileItLooks) {
   EXPECT_EQ(Refusal::kNotFound, result.refusal);
 }
 
+TEST(Localizer, BeginsAnewWhereTheClockJumpsBackWhileItCompares) {
+  TwinRooms rooms;
+  Localizer localizer(rooms.config, rooms.map);
+  const Pose in_room = poseOf({3.4, 5.2, 0.0}, 0.8);
+  const Pose in_hall = poseOf({20.0, 1.0, 0.0}, 0.3);
+  for (uint32_t i = 1000; i < 1003; ++i) {
+    const VoxelScan scan = scanFrom(rooms.world, in_room, rooms.config, i);
+    EXPECT_EQ(ScanStatus::kAmbiguous, localizer.process(scan).status);
+  }
+  const VoxelScan late = scanFrom(rooms.world, in_hall, rooms.config, 10);  // or is the clock back?
+  EXPECT_EQ(ScanStatus::kStale, localizer.process(late).status);
+  const ScanResult result = localizer.process(scanFrom(rooms.world, in_hall, rooms.config, 11));
+  expectAt(in_hall, result);
+  EXPECT_TRUE(result.clock_jumped);
+}
+
 TEST(Localizer, SaysThatItsSearchWasCancelled) {
   TwinRooms rooms;
   Localizer localizer(rooms.config, rooms.map);
@@ -167,22 +184,15 @@ class RoomsBeingMapped {
  public:
   explicit RoomsBeingMapped(const Config& config) : mapper_(config) {
     rooms_.config = config;
-    EXPECT_TRUE(mapper_.process(rooms_.seenFrom(start_)).located());
+    EXPECT_TRUE(mapper_.process(seenFrom(start_)).located());
   }
 
   void walkTo(const Vector3d& to) {
     for (Vector3d way = to - pose_.translation(); way.norm() > 0.01;
          way = to - pose_.translation()) {
       pose_.translation() += way.normalized() * std::min(0.25, way.norm());
-      ASSERT_TRUE(mapper_.process(rooms_.seenFrom(pose_)).located()) << to.transpose();
+      ASSERT_TRUE(mapper_.process(seenFrom(pose_)).located()) << to.transpose();
     }
-  }
-  /// The mapper of another process that has read its map.
-  Mapper read() const {
-    const MapFile file(mapFileBytes(MapContent::kFull, mapper_, rooms_.config, "map"), "a map");
-    Mapper mapper(rooms_.config);
-    file.restore(mapper);
-    return mapper;
   }
   Mapper& mapper() { return mapper_; }
   VoxelScan seenFrom(const Pose& pose) { return rooms_.seenFrom(pose); }
@@ -214,39 +224,72 @@ TEST(Mapper, LooksForALostSensorInItsMapIfAsked) {
   }
 }
 
-TEST(Mapper, GoesOnAnywhereInAGivenMap) {
-  RoomsBeingMapped rooms{Config{}};
-  rooms.walkTo({4.0, 1.0, 0.0});
-  rooms.walkTo({27.0, 1.0, 0.0});
-  Mapper mapper = rooms.read();
-  const uint32_t scans = mapper.map().scans();
-  const Pose unknown = poseOf({16.0, 6.0, 0.0}, 0.0);  // in the room that was not entered
-  EXPECT_FALSE(mapper.process(rooms.seenFrom(unknown)).located());
-  const Pose start = poseOf({3.4, 5.2, 0.0}, 1.0);
-  std::vector<ScanResult> results;
-  for (int i = 0; i < 12; ++i) results.push_back(mapper.process(rooms.seenFrom(start)));
-  expectMapped(rooms.inMap(start), results.back());
-  const auto located = static_cast<uint32_t>(
-      std::count_if(results.begin(), results.end(), [](const auto& r) { return r.located(); }));
-  EXPECT_EQ(scans + located, mapper.map().scans());
-  Mapper other = rooms.read();
-  expectMapped(rooms.inMap(start), other.process(rooms.seenFrom(start)));
+/// A mapper that has read the map of both rooms and the hall, at whose end the sensor was last.
+class GivenMap : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    rooms_ = std::make_unique<RoomsBeingMapped>(Config{});
+    rooms_->walkTo({4.0, 1.0, 0.0});
+    rooms_->walkTo({16.0, 1.0, 0.0});
+    rooms_->walkTo({16.0, 5.0, 0.0});
+    rooms_->walkTo({16.0, 1.0, 0.0});
+    rooms_->walkTo({27.0, 1.0, 0.0});
+  }
+  static void TearDownTestSuite() { rooms_.reset(); }
+
+  GivenMap() {
+    const Config config;
+    MapFile(mapFileBytes(MapContent::kFull, rooms_->mapper(), config, "map"), "the rooms")
+        .restore(mapper_);
+  }
+
+  static std::unique_ptr<RoomsBeingMapped> rooms_;
+  Mapper mapper_{Config{}};
+  const Pose in_first_ = poseOf({3.4, 5.2, 0.0}, 0.8);
+  const Pose in_hall_ = poseOf({20.0, 1.0, 0.0}, 0.3);
+};
+std::unique_ptr<RoomsBeingMapped> GivenMap::rooms_;
+
+TEST_F(GivenMap, GoesOnAnywhere) {
+  const uint32_t scans = mapper_.map().scans();
+  const VoxelScan scan = scanFrom(twinRooms(), in_hall_, Config{}, 5000);  // after minutes
+  expectMapped(rooms_->inMap(in_hall_), mapper_.process(scan));
+  EXPECT_EQ(scans + 1, mapper_.map().scans());
 }
 
-TEST(Mapper, LooksFirstWhereItIsTold) {
-  RoomsBeingMapped rooms{Config{}};
-  rooms.walkTo({4.0, 1.0, 0.0});
-  rooms.walkTo({16.0, 1.0, 0.0});
-  rooms.walkTo({16.0, 5.0, 0.0});
-  rooms.walkTo({16.0, 1.0, 0.0});
-  rooms.walkTo({27.0, 1.0, 0.0});
-  for (const double room : {0.0, 12.0}) {
-    Mapper mapper = rooms.read();
-    const Pose truth = poseOf({room + 3.4, 5.2, 0.0}, 0.8);
-    EXPECT_FALSE(mapper.process(rooms.seenFrom(truth)).located());
-    mapper.lookNear(rooms.inMap(poseOf({room + 4.6, 4.3, 0.1}, 0.3)));
-    expectMapped(rooms.inMap(truth), mapper.process(rooms.seenFrom(truth)));
+TEST_F(GivenMap, IsSearchedUntilTheSensorIsFound) {
+  const sim::World elsewhere = furnishedRoom();
+  for (uint32_t i = 0; i < 4; ++i) {
+    const VoxelScan scan = scanFrom(elsewhere, Pose::Identity(), Config{}, 500 + i);
+    EXPECT_FALSE(mapper_.process(scan).located()) << i;
   }
+  for (uint32_t i = 0; i < 2; ++i) {
+    const VoxelScan scan = scanFrom(twinRooms(), in_hall_, Config{}, 510 + i);
+    expectMapped(rooms_->inMap(in_hall_), mapper_.process(scan));
+  }
+}
+
+TEST_F(GivenMap, OfPlacesThatLookAlikeOneIsLeftWhenTheSensorMovesOn) {
+  Pose truth = in_first_;
+  bool located = false;
+  for (uint32_t i = 0; i < 60; ++i) {  // through the door and along the hall
+    const Vector3d target = i < 12   ? Vector3d(4.0, 4.0, 0.0)
+                            : i < 40 ? Vector3d(4.0, 1.0, 0.0)
+                                     : Vector3d(7.0, 1.0, 0.0);
+    const Vector3d way = target - truth.translation();
+    truth.translation() += way.normalized() * std::min(0.1, way.norm());
+    const ScanResult result = mapper_.process(scanFrom(twinRooms(), truth, Config{}, 1000 + i));
+    if (i == 0) EXPECT_EQ(ScanStatus::kAmbiguous, result.status);
+    if (result.located()) expectMapped(rooms_->inMap(truth), result);
+    located = located || result.located();
+  }
+  EXPECT_TRUE(located);
+}
+
+TEST_F(GivenMap, IsSearchedFirstWhereTheSensorIsToldToBe) {
+  EXPECT_FALSE(mapper_.process(rooms_->seenFrom(in_first_)).located());
+  mapper_.lookNear(rooms_->inMap(poseOf({4.6, 4.3, 0.1}, 0.3)));
+  expectMapped(rooms_->inMap(in_first_), mapper_.process(rooms_->seenFrom(in_first_)));
 }
 
 }  // namespace
