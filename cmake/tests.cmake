@@ -94,8 +94,12 @@ if(CATKIN_ENABLE_TESTING)
   endforeach()
   roslaunch_add_file_check(launch USE_TEST_DEPENDENCIES IGNORE_UNSET_ARGS)
 
-  # They use the network and wait for one another: not beside other tests.
-  get_property(serial_tests DIRECTORY PROPERTY TESTS)
-  list(FILTER serial_tests INCLUDE REGEX "rostest")
-  set_tests_properties(${serial_tests} PROPERTIES RUN_SERIAL TRUE)
+  # They mostly wait: one at a time, beside others. That which builds takes all processors.
+  get_property(all_tests DIRECTORY PROPERTY TESTS)
+  set(ros_test_names ${all_tests})
+  list(FILTER ros_test_names INCLUDE REGEX "rostest")
+  set_tests_properties(${ros_test_names} PROPERTIES RESOURCE_LOCK ros)
+  set(building_tests ${all_tests})
+  list(FILTER building_tests INCLUDE REGEX "core_examples_test")
+  set_tests_properties(${building_tests} PROPERTIES RUN_SERIAL TRUE)
 endif()

@@ -32,7 +32,12 @@ LocalizerNode::LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
       diagnostics_(handle, private_handle, name,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {
   if (const auto pose = poseOfText(parameters_.initial_pose)) io_.pointTo(*pose);
-  io_.start([this] { begin(); });
+  if (parameters_.map) {
+    io_.start([this] { loadGivenMap(); });
+  } else {
+    io_.start();
+    offerServices();
+  }
 }
 
 LocalizerNode::~LocalizerNode() {
@@ -40,18 +45,20 @@ LocalizerNode::~LocalizerNode() {
   services_.withdraw();
 }
 
-/// Services tell that the map is there.
-void LocalizerNode::begin() {
-  if (parameters_.map) {
-    try {
-      load(*parameters_.map);
-    } catch (const std::exception& error) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      map_error_ = error.what();
-      ROS_ERROR_STREAM(map_error_);
-    }
-    parameters_.map.reset();
+/// In the thread of the scans; services tell that the map is there.
+void LocalizerNode::loadGivenMap() {
+  try {
+    load(*parameters_.map);
+  } catch (const std::exception& error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    map_error_ = error.what();
+    ROS_ERROR_STREAM(map_error_);
   }
+  parameters_.map.reset();
+  offerServices();
+}
+
+void LocalizerNode::offerServices() {
   io_.addServices(services_);
   services_.add("load_map", &LocalizerNode::loadMap, this);
   services_.add("search", &LocalizerNode::search, this);

@@ -36,7 +36,8 @@ class LocalizerNode {
   ~LocalizerNode();
 
  private:
-  void begin();
+  void loadGivenMap();
+  void offerServices();
   /// The localizer takes the place of that which there is at the next scan.
   void load(const MapFile& file);
   ScanReport locate(const VoxelScanStamped& scan, const ScanTransforms& transforms);

@@ -27,7 +27,12 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
       diagnostics_(handle, private_handle, name,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {
-  io_.start([this] { begin(); });
+  if (parameters_.map) {
+    io_.start([this] { loadGivenMap(); });
+  } else {
+    io_.start();
+    offerServices();
+  }
 }
 
 MapperNode::~MapperNode() {
@@ -35,21 +40,23 @@ MapperNode::~MapperNode() {
   services_.withdraw();
 }
 
-/// Services tell that the map is there.
-void MapperNode::begin() {
-  if (parameters_.map) {
-    try {
-      Mapper mapper = newMapper();
-      parameters_.map->restore(mapper);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      put(std::move(mapper));
-    } catch (const std::exception& error) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      map_error_ = error.what();
-      ROS_ERROR_STREAM(map_error_);
-    }
-    parameters_.map.reset();
+/// In the thread of the scans; services tell that the map is there.
+void MapperNode::loadGivenMap() {
+  try {
+    Mapper mapper = newMapper();
+    parameters_.map->restore(mapper);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    put(std::move(mapper));
+  } catch (const std::exception& error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    map_error_ = error.what();
+    ROS_ERROR_STREAM(map_error_);
   }
+  parameters_.map.reset();
+  offerServices();
+}
+
+void MapperNode::offerServices() {
   io_.addServices(services_);
   services_.add("save_map", &MapperNode::saveMap, this);
   services_.add("load_map", &MapperNode::loadMap, this);

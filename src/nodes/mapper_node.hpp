@@ -33,7 +33,8 @@ class MapperNode {
   ~MapperNode();
 
  private:
-  void begin();
+  void loadGivenMap();
+  void offerServices();
   Mapper newMapper() const;
   void put(Mapper mapper);
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);

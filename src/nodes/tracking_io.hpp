@@ -51,7 +51,7 @@ class TrackingIo {
              Locate locate);
 
   /// Takes scans from now on. `begin` is called before the first one, in their thread.
-  void start(std::function<void()> begin);
+  void start(std::function<void()> begin = [] {});
   /// Interrupts what is going on and all that is to come, before this is destroyed.
   void end();
 

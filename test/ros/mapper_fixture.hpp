@@ -187,6 +187,7 @@ class MapperTest : public NodeletTest {
 
   template <typename Service>
   typename Service::Response call(const std::string& name, Service service = {}) {
+    expectService(name);
     EXPECT_TRUE(ros::service::call(resolved(name), service)) << name;
     return service.response;
   }
