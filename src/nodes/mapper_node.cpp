@@ -17,7 +17,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
     : log_(name),
       parameters_(readMapperParameters(private_handle)),
       map_publisher_(handle, parameters_.map_frame),
-      mapper_(newMapper()),
+      mapper_(parameters_.config, Clock::kWall),
       services_(handle),
       io_(handle, parameters_, log_,
           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
@@ -27,6 +27,7 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
                                         [this](const ros::WallTimerEvent&) { publishMap(); })),
       diagnostics_(handle, private_handle, name,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {
+  mapper_ = newMapper();
   if (parameters_.map) {
     io_.start([this] { loadGivenMap(); });
   } else {
