@@ -20,9 +20,10 @@ set_target_properties(${PROJECT_NAME}_conversions PROPERTIES POSITION_INDEPENDEN
 target_include_directories(${PROJECT_NAME}_conversions PUBLIC src)
 target_include_directories(${PROJECT_NAME}_conversions SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_conversions PUBLIC ${PROJECT_NAME}_core ${catkin_LIBRARIES})
-target_precompile_headers(${PROJECT_NAME}_conversions PRIVATE
-  <functional> <map> <string> <Eigen/Geometry> <diagnostic_updater/diagnostic_updater.h>
-  <nodelet/nodelet.h> <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
+set(ros_headers <functional> <map> <string> <Eigen/Geometry>
+  <diagnostic_updater/diagnostic_updater.h> <nodelet/nodelet.h> <ros/node_handle.h>
+  <sensor_msgs/PointCloud2.h>)
+target_precompile_headers(${PROJECT_NAME}_conversions PRIVATE ${ros_headers})
 add_dependencies(${PROJECT_NAME}_conversions
   ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 
@@ -36,7 +37,8 @@ add_library(${PROJECT_NAME}_nodelets SHARED ${EDGEVOX_NODE_SOURCES})
 target_include_directories(${PROJECT_NAME}_nodelets SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${PROJECT_NAME}_live ${PROJECT_NAME}_run)
 target_link_options(${PROJECT_NAME}_nodelets PRIVATE -Wl,--no-undefined)
-target_precompile_headers(${PROJECT_NAME}_nodelets REUSE_FROM ${PROJECT_NAME}_conversions)
+# Its definitions are others: it cannot use those of the conversions.
+target_precompile_headers(${PROJECT_NAME}_nodelets PRIVATE ${ros_headers})
 add_dependencies(${PROJECT_NAME}_nodelets ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_library(${PROJECT_NAME}_tools STATIC ${EDGEVOX_TOOLS_SOURCES})

@@ -3,30 +3,18 @@
 
 #include <memory>
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/ndt.h>
 
-#include "edgevox/scan/motion.hpp"
+#include "evaluation/pcl_points.hpp"
 
 namespace edgevox {
 namespace {
 
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+using Cloud = PclCloud;
 using Gicp = pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ>;
 using Ndt = pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ>;
 using Points = std::vector<Eigen::Vector3f>;
-
-void add(const Eigen::Vector3f& point, Cloud& cloud) {
-  cloud.push_back(pcl::PointXYZ(point.x(), point.y(), point.z()));
-}
-
-Cloud::Ptr sourceOf(const VoxelScan& scan) {
-  Cloud::Ptr cloud(new Cloud);
-  for (const ScanVoxel& voxel : scan.voxels) add(voxel.centroid, *cloud);
-  return cloud;
-}
 
 /// Of the points within `range` of a place, in a frame with its origin there: PCL computes in
 /// floats.
@@ -59,8 +47,7 @@ CapturedPose align(Method& method, const Pose& guess) {
   Cloud aligned;
   method.align(aligned, guess.matrix().template cast<float>());
   CapturedPose found;
-  found.T_map_sensor.matrix() = method.getFinalTransformation().template cast<double>();
-  renormalise(found.T_map_sensor);
+  found.T_map_sensor = poseOf(method.getFinalTransformation());
   found.accepted = method.hasConverged();
   return found;
 }
@@ -77,7 +64,7 @@ RegistrationFor registrationFor(const CaptureScene& scene, const Config& config,
     const auto method = make();
     method->setInputTarget(
         targetAround(T_map_place.translation().template cast<float>(), range, *points));
-    method->setInputSource(sourceOf(probe.scan));
+    method->setInputSource(cloudOf(probe.scan));
     align(*method, T_place_map * probe.T_map_sensor);  // GICP computes its covariances
     return [=](const Pose& guess, uint64_t) {
       CapturedPose found = align(*method, T_place_map * guess);

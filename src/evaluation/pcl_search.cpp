@@ -7,29 +7,23 @@
 #include <pcl/features/fpfh.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/filters/voxel_grid.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <pcl/registration/ia_ransac.h>
 #include <pcl/registration/icp.h>
 #include <pcl/search/kdtree.h>
 
-#include "edgevox/scan/motion.hpp"
+#include "evaluation/pcl_points.hpp"
 
 namespace edgevox {
 namespace {
 
 using Point = pcl::PointXYZ;
 using Feature = pcl::FPFHSignature33;
-using Cloud = pcl::PointCloud<Point>;
+using Cloud = PclCloud;
 using Features = pcl::PointCloud<Feature>;
 
 constexpr float kLeastSampleDistance = 1.0F;  // of SAC-IA [m]
 constexpr double kCorrespondence = 1.0;       // largest distance [m]
 constexpr int kIcpIterations = 50;
-
-void add(const Eigen::Vector3f& point, Cloud& cloud) {
-  cloud.push_back(Point(point.x(), point.y(), point.z()));
-}
 
 }  // namespace
 
@@ -75,9 +69,7 @@ PclSearch::PclSearch(const MatchMap& map) {
 PclSearch::~PclSearch() = default;
 
 Pose PclSearch::find(const VoxelScan& scan) const {
-  const Cloud::Ptr all(new Cloud);
-  for (const ScanVoxel& voxel : scan.voxels) add(voxel.centroid, *all);
-  const Described source(all, Eigen::Vector3f::Zero());
+  const Described source(cloudOf(scan), Eigen::Vector3f::Zero());
   std::srand(1);  // by which SAC-IA draws its samples
   pcl::SampleConsensusInitialAlignment<Point, Point, Feature> sac;
   sac.setInputSource(source.points);
@@ -95,10 +87,7 @@ Pose PclSearch::find(const VoxelScan& scan) const {
   icp.setMaxCorrespondenceDistance(kCorrespondence);
   icp.setMaximumIterations(kIcpIterations);
   icp.align(aligned, sac.getFinalTransformation());
-  Pose found = Pose::Identity();
-  found.matrix() = icp.getFinalTransformation().cast<double>();
-  renormalise(found);
-  return found;
+  return poseOf(icp.getFinalTransformation());
 }
 
 }  // namespace edgevox

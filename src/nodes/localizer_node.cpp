@@ -3,6 +3,7 @@
 
 #include <geometry_msgs/PoseArray.h>
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,7 +23,6 @@ LocalizerNode::LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
       candidates_(
           ros::NodeHandle(handle).advertise<geometry_msgs::PoseArray>("candidates", 1, true)),
       map_publisher_(handle, parameters_.map_frame),
-      services_(handle),
       io_(handle, parameters_, log_,
           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
             return locate(scan, transforms);
@@ -32,20 +32,16 @@ LocalizerNode::LocalizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
       diagnostics_(handle, private_handle, name,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {
   if (const auto pose = poseOfText(parameters_.initial_pose)) io_.pointTo(*pose);
-  if (parameters_.map) {
-    io_.start([this] { loadGivenMap(); });
-  } else {
-    io_.start();
-    offerServices();
-  }
+  io_.services().add("load_map", &LocalizerNode::loadMap, this);
+  io_.services().add("search", &LocalizerNode::search, this);
+  std::function<void()> load;
+  if (parameters_.map) load = [this] { loadGivenMap(); };
+  io_.start(std::move(load));
 }
 
-LocalizerNode::~LocalizerNode() {
-  io_.end();
-  services_.withdraw();
-}
+LocalizerNode::~LocalizerNode() { io_.end(); }
 
-/// In the thread of the scans; services tell that the map is there.
+/// In the thread of the scans.
 void LocalizerNode::loadGivenMap() {
   try {
     load(*parameters_.map);
@@ -55,14 +51,6 @@ void LocalizerNode::loadGivenMap() {
     ROS_ERROR_STREAM(map_error_);
   }
   parameters_.map.reset();
-  offerServices();
-}
-
-void LocalizerNode::offerServices() {
-  io_.addServices(services_);
-  services_.add("load_map", &LocalizerNode::loadMap, this);
-  services_.add("search", &LocalizerNode::search, this);
-  services_.start();
 }
 
 void LocalizerNode::load(const MapFile& file) {
@@ -178,9 +166,6 @@ void LocalizerNode::diagnose(DiagnosticStatus& status) {
              ? "the sensor is at one of " + std::to_string(candidates) + " places that look alike"
              : "the sensor is looked for in the map, " + std::to_string(percent_) + " % done",
          status);
-  }
-  if (const std::string missing = services_.missing(); !missing.empty()) {
-    warn("services " + missing, status);
   }
   status.add("candidates", candidates);
   if (!map) return;

@@ -18,7 +18,6 @@
 #include "nodes/tracking_io.hpp"
 #include "ros/live/map_publisher.hpp"
 #include "ros/live/parameters.hpp"
-#include "ros/live/service_offers.hpp"
 #include "ros/live/throttled_log.hpp"
 
 namespace edgevox {
@@ -37,7 +36,6 @@ class LocalizerNode {
 
  private:
   void loadGivenMap();
-  void offerServices();
   /// The localizer takes the place of that which there is at the next scan.
   void load(const MapFile& file);
   ScanReport locate(const VoxelScanStamped& scan, const ScanTransforms& transforms);
@@ -60,14 +58,13 @@ class LocalizerNode {
   std::atomic<int> percent_{0};           // of the search
   std::unique_ptr<Localizer> localizer_;  // of the thread of the scans
 
-  std::mutex mutex_;                   // of all below, up to the services
+  std::mutex mutex_;                   // of all below, up to the input and output
   std::unique_ptr<Localizer> loaded_;  // not taken yet
   bool look_everywhere_ = false;
   std::shared_ptr<const MatchMap> map_;
   std::string map_error_ = "no map is loaded";
   uint64_t map_version_ = 0;
 
-  ServiceOffers services_;
   TrackingIo io_;
   ros::WallTimer map_timer_;
   NodeDiagnostics diagnostics_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/mapper_node.hpp"
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -18,7 +19,6 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       parameters_(readMapperParameters(private_handle)),
       map_publisher_(handle, parameters_.map_frame),
       mapper_(parameters_.config, Clock::kWall),
-      services_(handle),
       io_(handle, parameters_, log_,
           [this](const VoxelScanStamped& scan, const ScanTransforms& transforms) {
             return map(scan, transforms);
@@ -28,20 +28,17 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       diagnostics_(handle, private_handle, name,
                    [this](DiagnosticStatus& status) { diagnose(status); }) {
   mapper_ = newMapper();
-  if (parameters_.map) {
-    io_.start([this] { loadGivenMap(); });
-  } else {
-    io_.start();
-    offerServices();
-  }
+  io_.services().add("save_map", &MapperNode::saveMap, this);
+  io_.services().add("load_map", &MapperNode::loadMap, this);
+  io_.services().add("reset", &MapperNode::reset, this);
+  std::function<void()> load;
+  if (parameters_.map) load = [this] { loadGivenMap(); };
+  io_.start(std::move(load));
 }
 
-MapperNode::~MapperNode() {
-  io_.end();
-  services_.withdraw();
-}
+MapperNode::~MapperNode() { io_.end(); }
 
-/// In the thread of the scans; services tell that the map is there.
+/// In the thread of the scans.
 void MapperNode::loadGivenMap() {
   try {
     Mapper mapper = newMapper();
@@ -54,15 +51,6 @@ void MapperNode::loadGivenMap() {
     ROS_ERROR_STREAM(map_error_);
   }
   parameters_.map.reset();
-  offerServices();
-}
-
-void MapperNode::offerServices() {
-  io_.addServices(services_);
-  services_.add("save_map", &MapperNode::saveMap, this);
-  services_.add("load_map", &MapperNode::loadMap, this);
-  services_.add("reset", &MapperNode::reset, this);
-  services_.start();
 }
 
 Mapper MapperNode::newMapper() const {
@@ -187,9 +175,6 @@ void MapperNode::diagnose(DiagnosticStatus& status) {
   io_.fill(status);
   if (!map_error.empty()) status.mergeSummary(DiagnosticStatus::ERROR, map_error);
   if (map.isFull()) warn(fullText(parameters_.config.map), status);
-  if (const std::string missing = services_.missing(); !missing.empty()) {
-    warn("services " + missing, status);
-  }
   status.add("edge voxels of the map", map.edgeVoxels().voxelCount());
   status.add("occupied voxels of the map", map.hitVoxelCount());
   status.addf("map in memory [MB]", "%.2f", static_cast<double>(map.bytes()) / 1e6);

@@ -14,7 +14,6 @@
 #include "nodes/tracking_io.hpp"
 #include "ros/live/map_publisher.hpp"
 #include "ros/live/parameters.hpp"
-#include "ros/live/service_offers.hpp"
 #include "ros/live/throttled_log.hpp"
 #include "run/run_record.hpp"
 
@@ -34,7 +33,6 @@ class MapperNode {
 
  private:
   void loadGivenMap();
-  void offerServices();
   Mapper newMapper() const;
   void put(Mapper mapper);
   ScanReport map(const VoxelScanStamped& scan, const ScanTransforms& transforms);
@@ -51,14 +49,13 @@ class MapperNode {
   std::mutex publishing_;  // of the map
   MapPublisher map_publisher_;
 
-  std::mutex mutex_;  // of all below, up to the services
+  std::mutex mutex_;  // of all below, up to the input and output
   Mapper mapper_;
   RunRecord run_;
   std::string map_error_;  // why there is no map to go on with, where there should be one
   uint64_t map_version_ = 0;
   uint64_t map_start_ = 0;  // differs after a reset, a jump of the clock or a new begin
 
-  ServiceOffers services_;
   TrackingIo io_;
   ros::WallTimer map_timer_;
   NodeDiagnostics diagnostics_;

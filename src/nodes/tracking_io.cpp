@@ -33,7 +33,8 @@ bool isPose(const geometry_msgs::Pose& message, double voxel_size) {
 
 TrackingIo::TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& parameters,
                        ThrottledLog& log, Locate locate)
-    : parameters_(parameters),
+    : services_(handle),
+      parameters_(parameters),
       log_(log),
       handle_(handle),
       locate_(std::move(locate)),
@@ -48,20 +49,28 @@ TrackingIo::TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& 
       input_(handle, "voxels", parameters.queue_size, log,
              [this](const Input::Arrival& arrival) { process(arrival); }) {}
 
-void TrackingIo::start(std::function<void()> begin) {
+void TrackingIo::start(std::function<void()> load) {
+  services_.add("pause", &TrackingIo::pause, this);
+  services_.add("resume", &TrackingIo::resume, this);
   initial_pose_ = handle_.subscribe("initialpose", 1, &TrackingIo::takeInitialPose, this);
-  input_.start(std::move(begin));
+  if (!load) {
+    input_.start();
+    services_.start();
+    return;
+  }
+  input_.start([this, load = std::move(load)] {
+    load();
+    services_.start();
+  });
 }
 
 void TrackingIo::end() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  ending_ = true;
-  interrupt();
-}
-
-void TrackingIo::addServices(ServiceOffers& services) {
-  services.add("pause", &TrackingIo::pause, this);
-  services.add("resume", &TrackingIo::resume, this);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+    interrupt();
+  }
+  services_.withdraw();
 }
 
 void TrackingIo::process(const Input::Arrival& arrival) {
@@ -256,11 +265,13 @@ ros::Time TrackingIo::lastStamp() const {
 void TrackingIo::fill(DiagnosticStatus& status) {
   const InputReading reading = input_.reading();
   const TransformReading transforms = transforms_.reading();
+  const std::string missing = services_.missing();
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.fill(status);
   if (paused_) warn("paused: call resume to go on", status);
   addInput(reading, dropped_told_, status);
   addTransforms(transforms, transforms_told_, status);
+  if (!missing.empty()) warn("services " + missing, status);
 }
 
 }  // namespace edgevox

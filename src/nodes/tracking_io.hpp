@@ -50,13 +50,14 @@ class TrackingIo {
   TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& parameters, ThrottledLog& log,
              Locate locate);
 
-  /// Takes scans from now on. `begin` is called before the first one, in their thread.
-  void start(std::function<void()> begin = [] {});
-  /// Interrupts what is going on and all that is to come, before this is destroyed.
+  /// To add to, before start(), beside `pause` and `resume`.
+  ServiceOffers& services() { return services_; }
+  /// Takes scans from now on and offers the services. `load`, if there is any, is called before the
+  /// first scan, in their thread; the services tell that it has ended.
+  void start(std::function<void()> load);
+  /// Interrupts what is going on and all that is to come, and waits for services that run: before
+  /// what they and the scans use is destroyed.
   void end();
-
-  /// Adds `pause` and `resume`.
-  void addServices(ServiceOffers& services);
 
   /// The pose of a scan, or that it has none, to TF, `odom` and `path`. Gives the time since the
   /// arrival of the cloud; 0 if that is not known [s].
@@ -103,6 +104,7 @@ class TrackingIo {
   bool pause(Trigger::Request& request, Trigger::Response& response);
   bool resume(Trigger::Request& request, Trigger::Response& response);
 
+  ServiceOffers services_;
   const TrackingParameters& parameters_;
   ThrottledLog& log_;
   ros::NodeHandle handle_;

@@ -45,7 +45,6 @@ class Localizer {
   const Tracker& tracker() const { return tracker_; }
   /// The edges of the last located scan, by it and those before it.
   const RecentEdges& recentEdges() const { return recent_edges_; }
-  const SearchResult& lastSearch() const { return last_search_; }
   /// Where the sensor may be, of a sensor that is looked for: T_map_sensor of the poses that are
   /// compared, else what the last search has found to fit best.
   std::vector<Pose> candidates() const;

@@ -19,7 +19,7 @@ namespace edgevox {
 
 /// Builds a map from scans in order of time: a Tracker finds where each was taken, a MapBuilder
 /// inserts it. A scan that cannot be located changes neither the map nor the pose. In a map that
-/// was read from a file the sensor is looked for everywhere until it is found.
+/// was read from a file a sensor that was not there just now is looked for as by a Localizer.
 class Mapper {
  public:
   explicit Mapper(const Config& config, Clock clock = Clock::kProcessCpu);
