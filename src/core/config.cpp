@@ -86,7 +86,7 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"matcher/restart_points", &c.matcher.restart_points, 50, kMaxCount, "",
        "points of a scan in a restart"},
       {"matcher/max_restarts", &c.matcher.max_restarts, 0, 10000, "",
-       "searches from random poses around the prediction before a scan is lost, or to see that no "
+       "searches from other poses around the prediction before a scan is lost, or to see that no "
        "other place fits as well"},
       {"matcher/min_hit_ratio", &c.matcher.min_hit_ratio, 0, 1, "",
        "share of a scan that must land in occupied voxels, before there is a history"},

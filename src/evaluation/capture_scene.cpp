@@ -30,7 +30,7 @@ class SpreadProbes {
 
  private:
   void thinOut() {
-    for (size_t i = 0; i < kFewestProbes; ++i) probes_[i] = std::move(probes_[2 * i]);
+    for (size_t i = 1; i < kFewestProbes; ++i) probes_[i] = std::move(probes_[2 * i]);
     probes_.resize(kFewestProbes);
     step_ *= 2;
   }

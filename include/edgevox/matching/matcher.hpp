@@ -136,11 +136,8 @@ class Matcher {
                     const MatchRequest& request) const;
 
   /// The discrete search alone, with the first `points` of the sample.
-  Pose search(const MatchMap& map, const ScanSample& sample, size_t points,
-              const Pose& guess) const {
-    uint64_t look_ups = 0;
-    return search(map, sample, points, guess, look_ups);
-  }
+  static Pose search(const MatchMap& map, const ScanSample& sample, size_t points,
+                     const Pose& guess);
   struct Refinement {
     Pose start = Pose::Identity();
     Prediction predicted;
@@ -158,15 +155,12 @@ class Matcher {
                    const Pose& T_map_sensor);
 
  private:
-  Pose search(const MatchMap& map, const ScanSample& sample, size_t points, const Pose& guess,
-              uint64_t& look_ups) const;
   MatchResult refineFrom(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                          const Pose& start, double widening) const;
   MatchResult verified(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                        MatchResult result) const;
   void restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                MatchResult& best) const;
-  Pose climbAsPublished(const MatchMap& map, const ScanSample& sample, const Pose& guess) const;
 
   MatcherConfig config_;
 };

@@ -7,12 +7,13 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "core/matching/correspondences.hpp"
+#include "core/matching/discrete_search.hpp"
 #include "core/matching/one_answer.hpp"
 #include "core/matching/open_directions.hpp"
+#include "core/matching/symmetric6.hpp"
 #include "edgevox/matching/free_space.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "edgevox/statistics.hpp"
@@ -20,15 +21,13 @@
 namespace edgevox {
 namespace {
 
-constexpr int kCandidates = 4;            // for each point refined: most have no anchor beside them
-constexpr double kRestartDistance = 1.0;  // [m]
-constexpr double kRestartAngle = 25.0 * M_PI / 180.0;  // [rad]
+constexpr int kCandidates = 4;  // for each point refined: most have no anchor beside them
 constexpr uint64_t kMostLookUps = 12000000;  // of a match; four times what a found one needed
 constexpr double kTrustedStep = 1.0;         // of a refinement alone [voxel of level 1]
 constexpr double kNearStep = 0.25;           // after which other points may be near [voxel]
 constexpr double kLeastKnown = 0.25;         // of a sample
 constexpr int kKnownLevel = 3;
-constexpr int kFinestSearchLevel = 2;
+constexpr int kStepsFromFar = 80;         // of a refinement
 constexpr double kWidest = 16.0;          // of the squared kernel of a refinement
 constexpr double kNarrowing = 0.25;       // of that, each step
 constexpr double kSharpSigma = 0.02;      // of a prediction that needs no wider kernel [m]
@@ -42,33 +41,6 @@ constexpr double kLargestMove = 10.0;                           // of one step [
 constexpr double kConvergedDistance = 5e-4;                     // [m]
 constexpr double kConvergedAngle = 5e-5;                        // [rad]
 
-/// Translation in the map's axes, rotation about the sensor.
-using Move = Vector6;
-
-Pose apply(const Pose& pose, const Move& move) {
-  Pose out = pose;
-  out.translation() += move.head<3>();
-  out.linear() = rotationOf(move.tail<3>()) * pose.linear();
-  return out;
-}
-
-size_t prefix(const ScanSample& sample, size_t count) { return std::min(sample.size(), count); }
-
-/// Number of the first `count` points that land in occupied voxels of a level.
-int score(const MatchMap& map, int level, const ScanSample& sample, size_t count,
-          const Pose& pose) {
-  const BitGrid<8>& occupied = map.occupied(level);
-  const double inverse_size = 1.0 / map.voxelSize(level);
-  const Eigen::Matrix3d rotation = pose.linear() * inverse_size;
-  const Eigen::Vector3d translation = pose.translation() * inverse_size;
-  int hits = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d p = rotation * sample[i] + translation;
-    hits += occupied.test(voxelAt(p, 1.0)) ? 1 : 0;
-  }
-  return hits;
-}
-
 /// Whether the pose is in the grid's range and the points of the sample, seen from there, have
 /// indices of voxels.
 bool isInGridRange(const MatchMap& map, const ScanSample& sample, const Pose& pose) {
@@ -76,52 +48,6 @@ bool isInGridRange(const MatchMap& map, const ScanSample& sample, const Pose& po
   return inGridRange(pose, size) &&
          std::all_of(sample.begin(), sample.end(),
                      [=](const Eigen::Vector3d& point) { return inGridRange(point, size); });
-}
-
-/// Steepest ascent over `moves` until none gains; ties go to the earlier move.
-template <typename Score>
-Pose climb(const std::vector<Move>& moves, Pose pose, int& best, const Score& scoreOf) {
-  for (;;) {
-    const Move* chosen = nullptr;
-    for (const Move& move : moves) {
-      const int s = scoreOf(apply(pose, move));
-      if (s <= best) continue;
-      best = s;
-      chosen = &move;
-    }
-    if (chosen == nullptr) return pose;
-    pose = apply(pose, *chosen);
-  }
-}
-
-std::vector<Move> axisMoves(double step, double angle) {
-  std::vector<Move> moves;
-  for (int axis = 0; axis < 6; ++axis) {
-    for (const double sign : {1.0, -1.0}) {
-      Move move = Move::Zero();
-      move[axis] = sign * (axis < 3 ? step : angle);
-      moves.push_back(move);
-    }
-  }
-  return moves;
-}
-
-/// One translation and one rotation at once.
-std::vector<Move> coupledMoves(double step, double angle) {
-  std::vector<Move> moves;
-  for (int t = 0; t < 3; ++t) {
-    for (int r = 3; r < 6; ++r) {
-      for (const double st : {1.0, -1.0}) {
-        for (const double sr : {1.0, -1.0}) {
-          Move move = Move::Zero();
-          move[t] = st * step;
-          move[r] = sr * angle;
-          moves.push_back(move);
-        }
-      }
-    }
-  }
-  return moves;
 }
 
 /// How far a change of pose moves the sensor, or a point at `range` around it.
@@ -138,29 +64,15 @@ Move difference(const Pose& to, const Pose& from) {
 }
 
 Matrix6 covarianceOf(const Matrix6& information) {
-  const Matrix6 covariance = kInflation * information.ldlt().solve(Matrix6::Identity());
+  const Matrix6 covariance = kInflation * inverseOf(information);
   return 0.5 * (covariance + covariance.transpose());
-}
-
-/// Uniform in [-1, 1), the same on every machine.
-double signedUniform(uint64_t& state) {
-  state += 0x9e3779b97f4a7c15ULL;
-  return std::ldexp(static_cast<double>(mixBits(state) >> 11), -52) - 1.0;
-}
-
-Pose disturbed(const Pose& guess, double scale, uint64_t& state) {
-  Move move;
-  for (int i = 0; i < 6; ++i) {
-    move[i] = scale * signedUniform(state) * (i < 3 ? kRestartDistance : kRestartAngle);
-  }
-  return apply(guess, move);
 }
 
 }  // namespace
 
 Prediction Prediction::withCovariance(const Pose& T_map_sensor, const Matrix6& covariance,
                                       bool measured) {
-  return {T_map_sensor, kInflation * covariance.ldlt().solve(Matrix6::Identity()), measured};
+  return {T_map_sensor, kInflation * inverseOf(covariance), measured};
 }
 
 double Prediction::sigma() const {
@@ -180,7 +92,7 @@ size_t Matcher::sampleSize() const {
 }
 
 size_t Matcher::refinePoints(const ScanSample& sample) const {
-  return prefix(sample, static_cast<size_t>(config_.refine_points));
+  return std::min(sample.size(), static_cast<size_t>(config_.refine_points));
 }
 
 MatchResult Matcher::match(const MatchMap& map, const ScanSample& sample,
@@ -200,7 +112,8 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
   result.T_map_sensor = guess;
   if (!isInGridRange(map, sample, guess)) return result;
   if (config_.mode == MatcherMode::kPublished) {
-    result.T_map_sensor = climbAsPublished(map, sample, guess);
+    DiscreteSearch search(map, sample, static_cast<size_t>(config_.search_points));
+    result.T_map_sensor = search.climbAsPublished(guess);
     return verified(map, sample, request, result);
   }
   const double unsure = request.guess.sigma() / kSharpSigma;
@@ -211,11 +124,9 @@ MatchResult Matcher::align(const MatchMap& map, const ScanSample& sample,
       step < kTrustedStep * map.voxelSize(1)) {
     return result;
   }
-  const auto points = static_cast<size_t>(config_.search_points);
-  uint64_t look_ups = result.look_ups;
-  const Pose found = search(map, sample, points, guess, look_ups);
-  MatchResult searched = refineFrom(map, sample, request, found, kWidest);
-  result.look_ups = searched.look_ups += look_ups;
+  DiscreteSearch search(map, sample, static_cast<size_t>(config_.search_points));
+  MatchResult searched = refineFrom(map, sample, request, search.climb(guess), kWidest);
+  result.look_ups = searched.look_ups += result.look_ups + search.lookUps();
   if (!searched.accepted() && result.accepted()) return result;
   if (searched.accepted() && !result.accepted()) return searched;
   return searched.fit > result.fit ? searched : result;
@@ -228,6 +139,7 @@ MatchResult Matcher::refineFrom(const MatchMap& map, const ScanSample& sample,
   refinement.start = start;
   refinement.predicted = request.guess;
   refinement.widening = widening;
+  if (widening >= kWidest) refinement.steps = kStepsFromFar;
   refinement.all_voxels = request.all_voxels;
   refinement.compares = request.doubtful;
   return verified(map, sample, request, refine(map, sample, refinement));
@@ -263,32 +175,30 @@ MatchResult Matcher::verified(const MatchMap& map, const ScanSample& sample,
 /// there are answers all along, of which the prediction chooses one.
 void Matcher::restart(const MatchMap& map, const ScanSample& sample, const MatchRequest& request,
                       MatchResult& best) const {
-  const auto points = static_cast<size_t>(config_.restart_points);
-  const size_t count = prefix(sample, points);
-  const auto coarseScore = [&](const Pose& pose) {
-    return score(map, kFinestSearchLevel, sample, count, pose);
-  };
-  const auto all_points = static_cast<size_t>(config_.search_points);
-  std::vector<Pose> starts;
+  DiscreteSearch few(map, sample, static_cast<size_t>(config_.restart_points));
+  DiscreteSearch all(map, sample, static_cast<size_t>(config_.search_points));
+  const auto hits = [&](const Pose& pose) { return few.hits(DiscreteSearch::kFinestLevel, pose); };
+  const RestartPoses starts = restartPoses(map, sample, request.guess.T_map_sensor, request.reach,
+                                           request.seed, static_cast<size_t>(config_.max_restarts));
+  std::vector<Pose> climbed;
   std::vector<MatchResult> answers;
   if (best.accepted()) answers.push_back(best);
-  uint64_t state = mixBits(request.seed + 1);
-  uint64_t look_ups = best.look_ups;
-  int best_score = coarseScore(best.T_map_sensor);
+  uint64_t look_ups = best.look_ups + starts.look_ups;
+  int best_hits = hits(best.T_map_sensor);
   int restarts = 0;
-  while (restarts < config_.max_restarts && look_ups < kMostLookUps) {
-    const double growth = 1.0 + static_cast<double>(++restarts) / config_.max_restarts;
-    const Pose start = disturbed(request.guess.T_map_sensor, request.reach * growth, state);
-    const Pose found = search(map, sample, points, start, look_ups);
+  for (const Pose& start : starts.best) {
+    if (look_ups + few.lookUps() + all.lookUps() > kMostLookUps) break;
+    ++restarts;
+    const Pose found = few.climb(start, starts.level);
     const auto isFound = [&](const Pose& other) {
       return areNear(found, other, kSameStart * kSameTranslation, kSameStart * kSameRotation);
     };
-    if (coarseScore(found) < kComparable * best_score ||
-        std::any_of(starts.begin(), starts.end(), isFound)) {
+    if (hits(found) < kComparable * best_hits ||
+        std::any_of(climbed.begin(), climbed.end(), isFound)) {
       continue;
     }
-    starts.push_back(found);
-    const Pose finer = search(map, sample, all_points, found, look_ups);
+    climbed.push_back(found);
+    const Pose finer = all.climb(found, starts.level);
     const MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
     look_ups += candidate.look_ups;
     if (candidate.accepted()) answers.push_back(candidate);
@@ -297,10 +207,10 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
       continue;
     }
     best = candidate;
-    best_score = coarseScore(best.T_map_sensor);
+    best_hits = hits(best.T_map_sensor);
   }
   best.restarts = restarts;
-  best.look_ups = look_ups;
+  best.look_ups = look_ups + few.lookUps() + all.lookUps();
   const bool ambiguous = std::any_of(answers.begin(), answers.end(), [&](const MatchResult& other) {
     return other.hit_ratio > kAlike * best.hit_ratio &&
            !areOneAnswer(best.T_map_sensor, other.T_map_sensor);
@@ -309,23 +219,8 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
 }
 
 Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t points,
-                     const Pose& guess, uint64_t& look_ups) const {
-  const size_t count = prefix(sample, points);
-  if (count == 0) return guess;
-  const double range = std::max(medianRange(sample, count), map.voxelSize(1));
-  Pose pose = guess;
-  for (int level = map.levels() - 1; level >= kFinestSearchLevel; --level) {
-    const auto scoreOf = [&](const Pose& p) {
-      look_ups += count;
-      return score(map, level, sample, count, p);
-    };
-    const double size = map.voxelSize(level);
-    int best = scoreOf(pose);
-    for (const double step : {size, size / 2}) {
-      pose = climb(axisMoves(step, step / range), pose, best, scoreOf);
-    }
-  }
-  return pose;
+                     const Pose& guess) {
+  return DiscreteSearch(map, sample, points).climb(guess);
 }
 
 MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
@@ -360,7 +255,7 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
     result.fit = all.weight / static_cast<double>(wanted);
     if (all.matches < 6) break;
     const Move off = difference(pose, predicted.T_map_sensor);
-    const Move move = -(equations.h + prior).ldlt().solve(equations.b + prior * off);
+    const Move move = -solutionOf(equations.h + prior, equations.b + prior * off);
     if (!(move.cwiseAbs().maxCoeff() < kLargestMove)) break;  // NaN
     pose = apply(pose, move);
     if (!inGridRange(pose, map.voxelSize(0))) break;
@@ -378,38 +273,14 @@ MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,
   return result;
 }
 
-/// Levels coarse to fine, one voxel and 0.5 degree * 2^level a step; a last pass at a quarter
-/// voxel and 0.125 degree.
-Pose Matcher::climbAsPublished(const MatchMap& map, const ScanSample& sample,
-                               const Pose& guess) const {
-  const size_t count = prefix(sample, static_cast<size_t>(config_.search_points));
-  const double half_degree = 0.5 * M_PI / 180.0;
-  Pose pose = guess;
-  const auto pass = [&](int level, double step, double angle) {
-    auto moves = axisMoves(step, angle);
-    const auto coupled = coupledMoves(step, angle);
-    moves.insert(moves.end(), coupled.begin(), coupled.end());
-    const auto scoreOf = [&](const Pose& p) { return score(map, level, sample, count, p); };
-    int best = scoreOf(pose);
-    pose = climb(moves, pose, best, scoreOf);
-  };
-  const int coarsest = std::min(map.levels() - 1, 5);
-  for (int level = coarsest; level >= 1; --level) {
-    pass(level, map.voxelSize(level), half_degree * (1 << (level - 1)));
-  }
-  pass(1, map.voxelSize(1) / 4, half_degree / 4);
-  renormalise(pose);
-  return pose;
-}
-
 Hits Matcher::hits(const MatchMap& map, const ScanSample& sample, size_t points,
                    const Pose& T_map_sensor) {
-  const size_t count = prefix(sample, points);
+  const size_t count = std::min(sample.size(), points);
   if (count == 0) return {};
+  DiscreteSearch search(map, sample, count);
   const auto all = static_cast<double>(count);
-  const int known_level = std::min(kKnownLevel, map.levels() - 1);
-  const int hits = score(map, 1, sample, count, T_map_sensor);
-  const int known = score(map, known_level, sample, count, T_map_sensor);
+  const int hits = search.hits(1, T_map_sensor);
+  const int known = search.hits(std::min(kKnownLevel, map.levels() - 1), T_map_sensor);
   return {hits / all, hits / std::max(static_cast<double>(known), kLeastKnown * all)};
 }
 
@@ -418,8 +289,7 @@ double worstSigma(const Matrix6& information, double range) {
   scaled.topRightCorner<3, 3>() /= range;
   scaled.bottomLeftCorner<3, 3>() /= range;
   scaled.bottomRightCorner<3, 3>() /= range * range;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
-  const double least = solver.eigenvalues()[0];
+  const double least = eigenOf(scaled).values[0];
   return least > 0 ? 1.0 / std::sqrt(least) : std::numeric_limits<double>::infinity();
 }
 

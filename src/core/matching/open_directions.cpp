@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/matching/open_directions.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "core/matching/symmetric6.hpp"
 
 namespace edgevox {
 namespace {
@@ -13,10 +12,10 @@ constexpr double kDegenerate = 0.0015;  // mean square across what is matched, a
 
 OpenDirections::OpenDirections(const Matrix6& geometry, double range) : metres_(Vector6::Ones()) {
   metres_.tail<3>().setConstant(1.0 / range);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(geometry);
-  degeneracy_.weakest = solver.eigenvectors().col(0);
-  for (int i = 0; i < 6 && !(solver.eigenvalues()[i] > kDegenerate); ++i) {
-    const Vector6 v = solver.eigenvectors().col(i);
+  const Eigen6 eigen = eigenOf(geometry);
+  degeneracy_.weakest = eigen.vectors.col(0);
+  for (int i = 0; i < 6 && !(eigen.values[i] > kDegenerate); ++i) {
+    const Vector6 v = eigen.vectors.col(i);
     closed_ -= v * v.transpose();
     ++degeneracy_.directions;
   }
@@ -43,9 +42,7 @@ Matrix6 OpenDirections::inUnits(const Matrix6& projection) const {
 /// An open direction counts as one that fits.
 double agreementOf(const Matrix6& geometry, const Matrix6& fitting) {
   const Matrix6 open = kDegenerate * Matrix6::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(fitting + open, geometry + open,
-                                                                 Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
+  return leastRatio(fitting + open, geometry + open);
 }
 
 }  // namespace edgevox
