@@ -57,7 +57,9 @@ if(EDGEVOX_BUILD_EVALUATION)
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
     ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree pcl_registration edgevox::tbb)
   target_precompile_headers(${PROJECT_NAME}_evaluation REUSE_FROM ${PROJECT_NAME}_tools)
-  set_source_files_properties(src/evaluation/pcl_registration.cpp src/evaluation/pcl_search.cpp PROPERTIES
+  set_source_files_properties(
+    src/evaluation/paper_icp.cpp src/evaluation/pcl_registration.cpp src/evaluation/pcl_search.cpp
+    PROPERTIES
     COMPILE_OPTIONS -Wno-array-bounds)  # in templates of PCL and Eigen, by gcc 12
 endif()
 
@@ -90,5 +92,5 @@ install(DIRECTORY ${share_folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATIO
 # The other scripts work on the checkout and stay in it.
 #catkin_lint: ignore uninstalled_script
 install(PROGRAMS scripts/play_bag scripts/plot_edges scripts/plot_localize scripts/plot_map
-  scripts/plot_maps scripts/plot_run scripts/plot_trust
+  scripts/plot_maps scripts/plot_paper scripts/plot_run scripts/plot_trust
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -87,10 +87,17 @@ struct LocalizerConfig {
   int search_after = 10;  ///< lost scans in a row, 0: never
 };
 
+/// Which voxels of a scan are matched and mapped.
+enum class ScanVoxels {
+  kAll,
+  kEdges,  ///< as published: those that EdgeExtractor has marked
+};
+
 /// What to do with the map when the clock has jumped back.
 enum class AfterClockJump { kKeepMap, kClearMap };
 
 struct MapperConfig {
+  ScanVoxels scan_voxels = ScanVoxels::kAll;
   double fallback_hit_ratio = 0.75;  ///< of its running median: match all voxels below it
   double fallback_sigma = 1.6;       ///< worst deviation of the pose / its running median
   int fallback_matches = 100;        ///< match all voxels below it

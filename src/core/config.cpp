@@ -103,6 +103,9 @@ std::vector<Parameter> parametersOf(Config& c) {
       {"search/margin", &c.search.margin, 0, 1, "",
        "of the evidence, by which the best pose must exceed all others; else the search is "
        "ambiguous"},
+      {"mapper/scan_voxels", choiceOf(c.mapper.scan_voxels, {"all", "edges"}), 0, 0, "",
+       "which voxels of a scan are matched and mapped; 'edges' is the system as published, see the "
+       "preset paper"},
       {"mapper/fallback_hit_ratio", &c.mapper.fallback_hit_ratio, 0, 1, "",
        "of the running median; below it a scan is aligned to all voxels"},
       {"mapper/fallback_sigma", &c.mapper.fallback_sigma, 1, 1000, "",

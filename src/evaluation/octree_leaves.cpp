@@ -10,6 +10,14 @@
 namespace edgevox {
 namespace {
 
+using Octree = pcl::octree::OctreePointCloudOccupancy<pcl::PointXYZ>;
+
+Octree octreeOf(const std::vector<Eigen::Vector3f>& points, double leaf_size) {
+  Octree octree(leaf_size);
+  for (const Eigen::Vector3f& p : points) octree.setOccupiedVoxelAtPoint({p.x(), p.y(), p.z()});
+  return octree;
+}
+
 /// The parents of which all eight children are there, ascending.
 std::vector<VoxelIndex> fullParents(const std::vector<VoxelIndex>& children) {
   std::vector<VoxelIndex> parents;
@@ -26,8 +34,7 @@ std::vector<VoxelIndex> fullParents(const std::vector<VoxelIndex>& children) {
 }  // namespace
 
 std::vector<VoxelIndex> octreeLeaves(const std::vector<Eigen::Vector3f>& points, double leaf_size) {
-  pcl::octree::OctreePointCloudOccupancy<pcl::PointXYZ> octree(leaf_size);
-  for (const Eigen::Vector3f& p : points) octree.setOccupiedVoxelAtPoint({p.x(), p.y(), p.z()});
+  Octree octree = octreeOf(points, leaf_size);
   std::vector<VoxelIndex> leaves;
   for (auto leaf = octree.leaf_depth_begin(); leaf != octree.leaf_depth_end(); ++leaf) {
     const auto& key = leaf.getCurrentOctreeKey();
@@ -35,6 +42,16 @@ std::vector<VoxelIndex> octreeLeaves(const std::vector<Eigen::Vector3f>& points,
         {static_cast<int32_t>(key.x), static_cast<int32_t>(key.y), static_cast<int32_t>(key.z)});
   }
   return leaves;
+}
+
+std::vector<Eigen::Vector3f> octreeLeafCentres(const std::vector<Eigen::Vector3f>& points,
+                                               double leaf_size) {
+  const Octree octree = octreeOf(points, leaf_size);
+  Octree::AlignedPointTVector centres;
+  octree.getOccupiedVoxelCenters(centres);
+  std::vector<Eigen::Vector3f> found;
+  for (const pcl::PointXYZ& centre : centres) found.emplace_back(centre.x, centre.y, centre.z);
+  return found;
 }
 
 size_t mergedLeafCount(std::vector<VoxelIndex> leaves) {

@@ -29,7 +29,7 @@ void addRecordingOptions(po::options_description& known) {
 void addConfigOptions(po::options_description& known) {
   auto add = known.add_options();
   add("config", po::value<std::string>()->default_value("", "the built-in values"),
-      "indoor, outdoor, terrestrial, or a YAML file");
+      "indoor, outdoor, terrestrial, paper, or a YAML file");
   add("set", po::value<std::vector<std::string>>()->multitoken(),
       "name=value ..., parameters of the configuration");
 }

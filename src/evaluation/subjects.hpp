@@ -20,6 +20,7 @@ void evaluateEdges(const Arguments& arguments);
 void evaluateMap(const Arguments& arguments);
 void evaluateTrust(const Arguments& arguments);
 void evaluateLocalize(const Arguments& arguments);
+void evaluatePaper(const Arguments& arguments);
 
 /// Options of all subjects that work on a recording, and what they say.
 void addRecordingOptions(boost::program_options::options_description& known);

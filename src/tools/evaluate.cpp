@@ -14,8 +14,8 @@ int run(const edgevox::Arguments& arguments) {
        {"map", edgevox::evaluateMap, "error and capture against the size of the map"},
        {"trust", edgevox::evaluateTrust,
         "how many scans are right, wrong and lost, in many recordings"},
-       {"localize", edgevox::evaluateLocalize,
-        "how many scans are found in a map without a guess"}},
+       {"localize", edgevox::evaluateLocalize, "how many scans are found in a map without a guess"},
+       {"paper", edgevox::evaluatePaper, "the comparison of Ryde, Delmerico and Corso 2013"}},
       arguments);
 }
 

@@ -24,7 +24,7 @@ po::options_description describe() {
   add("output,o", po::value<Text>(),
       "folder for trajectory, map, configuration, timings and summary; made if need be");
   add("topic", po::value<Text>(), "of the clouds (default: the only one of the bag)");
-  add("config", po::value<Text>(), "indoor, outdoor, terrestrial, or a YAML file");
+  add("config", po::value<Text>(), "indoor, outdoor, terrestrial, paper, or a YAML file");
   add("representation", po::value<Text>(),
       "sparse, all, random or edges: what scans are aligned to");
   add("threads", po::value<Text>(), "results do not depend on it");

@@ -131,10 +131,16 @@ TEST(ConfigFile, presets) {
   Config terrestrial;
   applyConfigFile(findConfigFile("terrestrial"), terrestrial);
   EXPECT_LT(terrestrial.voxel_size, indoor.voxel_size);
+  Config paper;
+  applyConfigFile(findConfigFile("paper"), paper);
+  EXPECT_EQ(0.05, paper.voxel_size);
+  EXPECT_EQ(EdgeMode::kPaper, paper.edges.mode);
+  EXPECT_EQ(MatcherMode::kPublished, paper.matcher.mode);
+  EXPECT_EQ(ScanVoxels::kEdges, paper.mapper.scan_voxels);
 }
 
 TEST(ConfigFile, unknownPresetListsThoseThereAre) {
-  expectError([] { findConfigFile("indor"); }, {"'indor'", "indoor, outdoor, terrestrial"});
+  expectError([] { findConfigFile("indor"); }, {"'indor'", "indoor, outdoor, paper, terrestrial"});
 }
 
 TEST(ConfigFile, filesByName) {

@@ -50,4 +50,9 @@ struct VoxelScan {
   std::string too_large;
 };
 
+/// The same in voxels of the map's size, twice as large; one is an edge if one in it is.
+VoxelScan inMapVoxels(const VoxelScan& scan);
+/// The edges of that.
+VoxelScan edgeVoxels(const VoxelScan& scan);
+
 }  // namespace edgevox

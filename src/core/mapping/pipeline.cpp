@@ -34,11 +34,12 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   result.edges = extractor_.extract(scan);
   density_monitor_.add(scan, *result.edges);
   const double extract = timer.lap();
+  result.scan_voxels = scan.voxels.size();
+  if (config_.mapper.scan_voxels == ScanVoxels::kEdges) scan = edgeVoxels(scan);
   result.scan = localizer_ ? localizer_->process(scan, prior) : mapper_.process(scan, prior);
   result.scan.times.voxelize = static_cast<float>(voxelize);
   result.scan.times.extract = static_cast<float>(extract);
   result.points = scan.points_read;
-  result.scan_voxels = scan.voxels.size();
   result.dropped = scan.dropped;
   result.too_large = scan.too_large;
   return result;

@@ -10,16 +10,16 @@
 namespace edgevox {
 namespace {
 
-constexpr double kHalfDegree = 0.5 * M_PI / 180.0;   // [rad]
-constexpr int kCoarsestPublished = 5;                // level
-constexpr double kDrawnDistance = 1.0;               // [m]
-constexpr double kDrawnAngle = 25.0 * M_PI / 180.0;  // [rad]
-constexpr double kGrowth = 2.0;                      // of both, from the first drawn to the last
-constexpr int kDrawn = 2000;                         // poses
-constexpr size_t kDrawnPoints = 100;                 // of the sample, by which they are compared
-constexpr double kDrawnVoxel = 1.6;                  // at most, by which they are compared [m]
-constexpr double kNearDistance = 0.25;               // of a better start [voxel]
-constexpr double kNearAngle = 5.0 * M_PI / 180.0;    // the same [rad]
+constexpr double kQuarterDegree = 0.25 * M_PI / 180.0;  // [rad]
+constexpr int kCoarsestPublished = 5;                   // level
+constexpr double kDrawnDistance = 1.0;                  // [m]
+constexpr double kDrawnAngle = 25.0 * M_PI / 180.0;     // [rad]
+constexpr double kGrowth = 2.0;                         // of both, from the first drawn to the last
+constexpr int kDrawn = 2000;                            // poses
+constexpr size_t kDrawnPoints = 100;                    // of the sample, by which they are compared
+constexpr double kDrawnVoxel = 1.6;                     // at most, by which they are compared [m]
+constexpr double kNearDistance = 0.25;                  // of a better start [voxel]
+constexpr double kNearAngle = 5.0 * M_PI / 180.0;       // the same [rad]
 
 /// Steepest ascent over `moves` until none gains; ties go to the earlier move.
 template <typename Score>
@@ -100,7 +100,13 @@ DiscreteSearch::DiscreteSearch(const MatchMap& map, const ScanSample& sample, si
     : map_(map), sample_(sample), points_(std::min(points, sample.size())) {}
 
 int DiscreteSearch::hits(int level, const Pose& T_map_sensor) {
-  const BitGrid<8>& occupied = map_.occupied(level);
+  look_ups_ += points_;
+  return level == 0 ? hitsIn(map_.hitVoxels(), level, T_map_sensor)
+                    : hitsIn(map_.occupied(level), level, T_map_sensor);
+}
+
+template <typename Bits>
+int DiscreteSearch::hitsIn(const Bits& occupied, int level, const Pose& T_map_sensor) const {
   const double inverse_size = 1.0 / map_.voxelSize(level);
   const Eigen::Matrix3d rotation = T_map_sensor.linear() * inverse_size;
   const Eigen::Vector3d translation = T_map_sensor.translation() * inverse_size;
@@ -109,7 +115,6 @@ int DiscreteSearch::hits(int level, const Pose& T_map_sensor) {
     const Eigen::Vector3d p = rotation * sample_[i] + translation;
     hits += occupied.test(voxelAt(p, 1.0)) ? 1 : 0;
   }
-  look_ups_ += points_;
   return hits;
 }
 
@@ -138,11 +143,10 @@ Pose DiscreteSearch::climbAsPublished(const Pose& start) {
     int best = hitsOf(pose);
     pose = edgevox::climb(moves, pose, best, hitsOf);
   };
-  const int coarsest = std::min(map_.levels() - 1, kCoarsestPublished);
-  for (int level = coarsest; level >= 1; --level) {
-    pass(level, map_.voxelSize(level), kHalfDegree * (1 << (level - 1)));
+  for (int level = std::min(map_.levels() - 1, kCoarsestPublished); level >= 0; --level) {
+    pass(level, map_.voxelSize(level), kQuarterDegree * (1 << level));
   }
-  pass(1, map_.voxelSize(1) / 4, kHalfDegree / 4);
+  pass(0, map_.voxelSize(0) / 4, kQuarterDegree / 4);
   renormalise(pose);
   return pose;
 }

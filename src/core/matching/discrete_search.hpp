@@ -23,7 +23,8 @@ class DiscreteSearch {
 
   DiscreteSearch(const MatchMap& map, const ScanSample& sample, size_t points);
 
-  /// Number of the points that land in occupied voxels of a level.
+  /// Number of the points that land in occupied voxels of a level; of level 0 in those that the map
+  /// holds.
   int hits(int level, const Pose& T_map_sensor);
 
   /// Climbs from a pose in steps of a voxel and of half of it, at each level from `coarsest` on to
@@ -31,14 +32,18 @@ class DiscreteSearch {
   Pose climb(const Pose& start, int coarsest);
   /// The same, from the coarsest level of the map on.
   Pose climb(const Pose& start) { return climb(start, map_.levels() - 1); }
-  /// Climbs as Ryde and Hu 2010: levels coarse to fine, one voxel and 0.5 degree * 2^level a step;
-  /// a last pass at a quarter voxel and 0.125 degree.
+  /// Climbs as Ryde and Hu 2010: levels coarse to fine to level 0, in steps of a voxel and of a
+  /// quarter of a degree * 2^level, moved and turned at once too; a last pass at a quarter of
+  /// these.
   Pose climbAsPublished(const Pose& start);
 
   /// Points looked up in the map up to now.
   uint64_t lookUps() const { return look_ups_; }
 
  private:
+  template <typename Bits>
+  int hitsIn(const Bits& occupied, int level, const Pose& T_map_sensor) const;
+
   const MatchMap& map_;
   const ScanSample& sample_;
   size_t points_;

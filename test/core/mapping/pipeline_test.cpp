@@ -73,6 +73,29 @@ TEST_P(Building, TwelveSecondsAreMapped) {
 INSTANTIATE_TEST_SUITE_P(Representations, Building,
                          ::testing::Values(Representation::kSparse, Representation::kAll));
 
+/// As the preset paper, but in larger voxels.
+TEST(Building, IsMappedByEdgesOfScansAlone) {
+  Config config;
+  config.edges.mode = EdgeMode::kPaper;
+  config.map.representation = Representation::kAll;
+  config.map.min_hits = 1;
+  config.map.confirm_within = 0;
+  config.map.freeze_after = 0;
+  config.matcher.mode = MatcherMode::kPublished;
+  config.matcher.search_points = 1000000;
+  config.matcher.max_restarts = 0;
+  config.matcher.min_hit_ratio = config.matcher.relative_hit_ratio = 0.0;
+  const auto run = [&](ScanVoxels scan_voxels) {
+    config.mapper.scan_voxels = scan_voxels;
+    return runOf(building().sweeps, 40, config);
+  };
+  const MappedRun edges = run(ScanVoxels::kEdges);
+  EXPECT_EQ(0U, edges.lost);
+  EXPECT_LT(evaluate(edges.trajectory, building().truth).ape_rmse_m, 0.15);
+  EXPECT_GT(edges.voxels, 500U);
+  EXPECT_LT(edges.voxels, run(ScanVoxels::kAll).voxels * 2 / 3);
+}
+
 TEST(Corridor, FifteenSecondsAreMapped) {
   const Walk walk = simulateWalk(sim::WorldName::Corridor, "16", 0, 150);
   const MappedRun run = runOf(walk.sweeps, walk.sweeps.size(), Config{});

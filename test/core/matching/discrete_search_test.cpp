@@ -2,14 +2,18 @@
 #include "core/matching/discrete_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/matching/one_answer.hpp"
 #include "core/scan/scan_sample.hpp"
+#include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/map/map_builder.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "support/mapped_world.hpp"
 #include "support/random.hpp"
@@ -90,6 +94,148 @@ TEST(DiscreteSearch, OfNoPointStays) {
   const Pose guess = offBy({0.8, 0, 0}, {0, 0, 5.0});
   EXPECT_EQ(0, search.hits(1, guess));
   EXPECT_TRUE(search.climb(guess).matrix() == guess.matrix());
+}
+
+/// One voxel list a level, and every move tried in turn, from the description alone.
+class NaiveClimb {
+ public:
+  NaiveClimb(const std::vector<VoxelIndex>& voxels, double voxel_size, int levels)
+      : voxel_size_(voxel_size), lists_(static_cast<size_t>(levels)) {
+    for (const VoxelIndex& v : voxels) {
+      for (size_t level = 0; level < lists_.size(); ++level) {
+        const double side = std::ldexp(1.0, static_cast<int>(level));
+        lists_[level].insert(
+            {std::floor(v.x / side), std::floor(v.y / side), std::floor(v.z / side)});
+      }
+    }
+  }
+
+  Pose from(Pose pose, const ScanSample& points) const {
+    for (int level = static_cast<int>(lists_.size()) - 1; level >= 0; --level) {
+      const double scale = std::ldexp(1.0, level);
+      pose = pass(pose, points, level, voxel_size_ * scale, 0.25 * kDegree * scale);
+    }
+    return pass(pose, points, 0, voxel_size_ / 4, 0.25 * kDegree / 4);
+  }
+
+ private:
+  using Index = std::array<double, 3>;
+
+  int count(const Pose& pose, const ScanSample& points, int level) const {
+    int count = 0;
+    for (const Vector3d& point : points) {
+      const Vector3d v = pose * point / (voxel_size_ * std::ldexp(1.0, level));
+      count += static_cast<int>(lists_[static_cast<size_t>(level)].count(
+          {std::floor(v.x()), std::floor(v.y()), std::floor(v.z())}));
+    }
+    return count;
+  }
+
+  static Pose moved(const Pose& pose, int axis, double by) {
+    Pose out = pose;
+    const Vector3d along = by * Vector3d::Unit(axis % 3);
+    if (axis < 3) out.translation() += along;
+    if (axis >= 3) out.linear() = rotationOf(along) * pose.linear();
+    return out;
+  }
+
+  Pose pass(Pose pose, const ScanSample& points, int level, double step, double angle) const {
+    int best = count(pose, points, level);
+    for (bool gains = true; gains;) {
+      Pose next = pose;
+      const auto look = [&](const Pose& candidate) {
+        const int hits = count(candidate, points, level);
+        if (hits > best) {
+          best = hits;
+          next = candidate;
+        }
+      };
+      for (int axis = 0; axis < 6; ++axis) {
+        for (const double sign : {1.0, -1.0}) {
+          look(moved(pose, axis, sign * (axis < 3 ? step : angle)));
+        }
+      }
+      for (int t = 0; t < 3; ++t) {
+        for (int r = 3; r < 6; ++r) {
+          for (const double st : {1.0, -1.0}) {
+            for (const double sr : {1.0, -1.0})
+              look(moved(moved(pose, t, st * step), r, sr * angle));
+          }
+        }
+      }
+      gains = next.matrix() != pose.matrix();
+      pose = next;
+    }
+    return pose;
+  }
+
+  double voxel_size_;
+  std::vector<std::set<Index>> lists_;
+};
+
+/// The edges of scans alone, at 5 cm, as the preset paper has them.
+struct EdgeRoom {
+  Config config;
+  MapBuilder builder;
+  VoxelScan scan;
+
+  EdgeRoom() : config(configOf()), builder(config.voxel_size, config.map, config.edges, 1) {
+    for (const double x : {-1.0, 0.2, 0.9}) {
+      const Pose pose = poseOf({x, -0.3 * x, 0.1}, 0.5 + x);
+      std::vector<Vector3d> centroids;
+      for (const ScanVoxel& voxel : edgesFrom(pose).voxels) {
+        centroids.push_back(pose * voxel.centroid.cast<double>());
+      }
+      builder.insert(centroids, pose.translation());
+    }
+    scan = edgesFrom(room().truth);
+  }
+
+  static Config configOf() {
+    Config config;
+    config.voxel_size = 0.05;
+    config.edges.mode = EdgeMode::kPaper;
+    config.map.representation = Representation::kAll;
+    config.map.min_hits = 1;
+    config.map.confirm_within = 0;
+    config.map.freeze_after = 0;
+    config.map.coarsest_voxel = 1.6;
+    return config;
+  }
+
+  VoxelScan edgesFrom(const Pose& pose) const {
+    VoxelScan scan = scanFrom(room().world, pose, config, 50);
+    EdgeExtractor(config.edges, 1).extract(scan);
+    return edgeVoxels(scan);
+  }
+};
+
+TEST(PublishedClimb, OnEdgesIsThatOfANaiveOne) {
+  const EdgeRoom made;
+  std::vector<VoxelIndex> voxels;
+  made.builder.matchMap().hitVoxels().forEach([&](const VoxelIndex& v) { voxels.push_back(v); });
+  ASSERT_GT(voxels.size(), 1000U);
+  const NaiveClimb naive(voxels, made.config.voxel_size, 6);
+  const ScanSample sample = sampleCentroids(made.scan, 400);
+  ASSERT_EQ(400U, sample.size());
+  DiscreteSearch search(made.builder.matchMap(), sample, sample.size());
+  for (const double off : {0.05, 0.3, 0.8}) {
+    const Pose guess = offBy({off, -off / 2, off / 4}, {4 * off, -3 * off, 10 * off});
+    const PoseDifference between =
+        differenceOf(naive.from(guess, sample), search.climbAsPublished(guess));
+    EXPECT_LT(between.metres, 1e-9) << off;
+    EXPECT_LT(between.degrees, 1e-6) << off;
+  }
+}
+
+TEST(PublishedClimb, OnEdgesFindsThePose) {
+  const EdgeRoom made;
+  const ScanSample sample = sampleCentroids(made.scan, made.scan.voxels.size());
+  DiscreteSearch search(made.builder.matchMap(), sample, sample.size());
+  const PoseDifference off = differenceOf(
+      room().truth, search.climbAsPublished(offBy({0.2, -0.15, 0.05}, {1.0, -1.0, 4.0})));
+  EXPECT_LT(off.metres, 0.05);
+  EXPECT_LT(off.degrees, 1.0);
 }
 
 TEST(RestartPoses, AreTheBestOfTheirKindAndDistinct) {

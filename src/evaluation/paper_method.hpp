@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ways of Ryde, Delmerico, Corso 2013 to align scans, and those of edgevox.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edgevox/config.hpp"
+#include "edgevox/grid/voxel.hpp"
+#include "edgevox/scan/voxel_scan.hpp"
+
+namespace edgevox {
+
+/// A scan as the sensor would have seen it in the moment of its stamp, with its edges.
+struct PaperScan {
+  VoxelScan scan;                        ///< in voxels of half the map's size
+  VoxelScan voxels;                      ///< the same in voxels of the map's size
+  Pose T_map_sensor = Pose::Identity();  ///< the truth
+};
+
+struct PaperPose {
+  Pose T_map_sensor = Pose::Identity();
+  bool located = false;
+};
+
+/// Aligns one scan after another, each from a guess.
+class PaperMethod {
+ public:
+  virtual ~PaperMethod() = default;
+  /// Where the scan was taken; nothing is changed.
+  virtual PaperPose align(const PaperScan& scan, const Pose& guess) = 0;
+  /// Adds the scan at this pose to what the next scans are aligned to.
+  virtual void insert(const PaperScan& scan, const Pose& T_map_sensor) = 0;
+  /// Whether the next scan is aligned to the last one alone, and not to a map.
+  virtual bool isScanToScan() const { return false; }
+};
+
+/// Which voxels of the scans a method works on.
+enum class PaperVoxels { kAll, kEdges, kOctreeLeaves };
+
+struct NamedPaperMethod {
+  std::string name;
+  PaperVoxels voxels = PaperVoxels::kAll;  ///< whose map is counted
+  std::function<std::unique_ptr<PaperMethod>()> make;
+};
+
+/// The voxels of a scan that a method works on, of the map's size.
+VoxelScan chosenVoxels(const PaperScan& scan, PaperVoxels voxels);
+
+/// ICP of PCL, scan to scan.
+std::unique_ptr<PaperMethod> makeIcp(PaperVoxels voxels);
+constexpr double kIcpCorrespondence = 1.0;  ///< at most [m]
+constexpr int kIcpSteps = 100;              ///< at most
+
+/// MROL as published, scan to map.
+std::unique_ptr<PaperMethod> makePublished(double voxel_size, PaperVoxels voxels);
+
+/// The tracker of edgevox, scan to map.
+std::unique_ptr<PaperMethod> makeTracker(const Config& config);
+
+/// All of them, with the configuration `config` for edgevox.
+std::vector<NamedPaperMethod> paperMethods(const Config& config);
+
+}  // namespace edgevox

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The protocol of Ryde, Delmerico, Corso 2013: scans in their order, each aligned from a guess that
+// is wrong by a random error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "edgevox/config.hpp"
+#include "evaluation/paper_method.hpp"
+#include "evaluation/scan_stream.hpp"
+
+namespace edgevox {
+
+struct PaperOptions {
+  size_t most = 100;        ///< scans
+  size_t every = 1;         ///< of which every n-th is used
+  uint64_t seed = 1;        ///< of the errors of the guesses, the same for all methods
+  double distance = 0.5;    ///< standard deviation of the guesses, on each axis [m]
+  double angle = 10.0;      ///< the same [degrees]
+  double seconds = 600.0;   ///< of CPU time that a method may take for all scans
+  size_t megabytes = 8192;  ///< that a method may have in memory
+  Config config;            ///< of edgevox; its voxel size is that of all methods
+  std::string config_name = "the defaults";  ///< to print
+};
+
+/// What became of one scan. In bytes from process to process.
+struct PaperRecord {
+  uint64_t scan = 0;  ///< number in the recording
+  uint64_t voxels = 0;
+  uint64_t edges = 0;
+  uint64_t located = 0;
+  double metres = 0.0;    ///< of the pose from the truth
+  double degrees = 0.0;   ///< the same
+  double voxelize = 0.0;  ///< CPU time, as the next three [s]
+  double extract = 0.0;
+  double align = 0.0;
+  double insert = 0.0;
+  uint64_t map_voxels = 0;   ///< after this scan, of the map built by the poses found
+  uint64_t true_voxels = 0;  ///< the same by the true poses
+};
+
+enum class PaperEnd { kDone, kTime, kMemory, kFailed };
+
+struct PaperRow {
+  std::string name;
+  std::vector<PaperRecord> scans;  ///< without the first one, which is where it truly was
+  PaperEnd end = PaperEnd::kDone;  ///< why there are no more scans
+  double megabytes = 0.0;          ///< of peak memory of a process that does nothing else
+};
+
+/// Goes through the scans of a recording that have a true pose, with their edges as published.
+void forEachPaperScan(const ScanStream& scans, const PaperOptions& options,
+                      const std::function<void(const PaperScan&, PaperRecord)>& visit);
+
+/// Runs a method in a process of its own, with the limits of `options`.
+PaperRow runPaperMethod(const NamedPaperMethod& method, const ScanStream& scans,
+                        const PaperOptions& options);
+
+}  // namespace edgevox
