@@ -42,6 +42,14 @@ if(CATKIN_ENABLE_TESTING)
     set(gtest_main GTest::gtest_main)
   endif()
 
+  # What the tests of nodelets and tools share.
+  file(GLOB outer_sources CONFIGURE_DEPENDS test/ros/*.cpp test/tools/*.cpp)
+  list(FILTER outer_sources EXCLUDE REGEX "_test.cpp$")
+  add_library(${PROJECT_NAME}_outer_test_objects STATIC EXCLUDE_FROM_ALL ${outer_sources})
+  target_include_directories(${PROJECT_NAME}_outer_test_objects SYSTEM PRIVATE ${outer_include_dirs})
+  target_link_libraries(${PROJECT_NAME}_outer_test_objects PUBLIC
+    ${PROJECT_NAME}_test_support ${PROJECT_NAME}_sim ${PROJECT_NAME}_tools ${GTEST_LIBRARIES})
+
   set(test_folders core run sim tools)
   if(EDGEVOX_BUILD_EVALUATION)
     list(APPEND test_folders evaluation)
@@ -68,8 +76,12 @@ if(CATKIN_ENABLE_TESTING)
       if(folder STREQUAL "evaluation")
         target_link_libraries(${test_target} ${PROJECT_NAME}_evaluation)
       endif()
+      if(folder MATCHES "evaluation|tools")
+        target_link_libraries(${test_target} ${PROJECT_NAME}_outer_test_objects)
+      endif()
     endforeach()
   endforeach()
+  edgevox_compile_test(${PROJECT_NAME}_outer_test_objects outer)
   target_compile_definitions(${PROJECT_NAME}_core_examples_test PRIVATE
     EDGEVOX_BUILD_DIR="${CMAKE_CURRENT_BINARY_DIR}"
     EDGEVOX_CMAKE="${CMAKE_COMMAND}"
@@ -88,7 +100,7 @@ if(CATKIN_ENABLE_TESTING)
     add_rostest_gtest(${test_target} ${ros_test} test/ros/${test_name}_test.cpp)
     target_include_directories(${test_target} SYSTEM PRIVATE ${outer_include_dirs})
     target_link_libraries(${test_target}
-      ${PROJECT_NAME}_test_support ${PROJECT_NAME}_live ${PROJECT_NAME}_tools ${gtest_main})
+      ${PROJECT_NAME}_outer_test_objects ${PROJECT_NAME}_live ${gtest_main})
     add_dependencies(${test_target} ${PROJECT_NAME}_nodelets)
     edgevox_compile_test(${test_target} outer)
   endforeach()

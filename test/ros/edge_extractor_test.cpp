@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/EdgeExtractor: voxels in, the same with the edges marked out.
+#include <sensor_msgs/PointCloud2.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "edgevox/config.hpp"
 #include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
-#include "nodelet_fixture.hpp"
+#include "edgevox/scan/voxelizer.hpp"
 #include "ros/conversions/voxel_scan_message.hpp"
+#include "ros/nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -44,13 +50,11 @@ class EdgeExtractorTest : public NodeletTest {
   void start(int queue_size = 100) {
     setParameter("edge_extractor", "queue_size", queue_size);
     ASSERT_TRUE(load("edge_extractor"));
-    voxels_ = ros::NodeHandle().advertise<VoxelScanStamped>(resolved("voxels"), 100);
+    voxels_ = advertise<VoxelScanStamped>(resolved("voxels"), 100);
     ASSERT_EQ(1U, voxels_.getNumSubscribers());
   }
 
-  void send(const VoxelScanStamped& scan) {
-    voxels_.publish(boost::make_shared<VoxelScanStamped>(scan));
-  }
+  void send(const VoxelScanStamped& scan) { publishShared(voxels_, copyOf(scan)); }
 
   /// Sends it and waits for what comes of it.
   VoxelScanStamped edgesOf(const VoxelScanStamped& scan) {
@@ -284,8 +288,8 @@ TEST_F(EdgeExtractorTest, TakesScansOfNothingAndOfImpossibleVoxelsOnly) {
 TEST_F(EdgeExtractorTest, AddsItsDropsToThoseOfTheVoxelizer) {
   constexpr size_t kSent = 60;
   start(1);
-  const auto scan = boost::make_shared<VoxelScanStamped>(messageOf(scans()[0]));
-  for (size_t i = 0; i < kSent; ++i) voxels_.publish(scan);
+  const auto scan = copyOf(messageOf(scans()[0]));
+  for (size_t i = 0; i < kSent; ++i) publishShared(voxels_, scan);
   EXPECT_TRUE(tells("edge_extractor", [&](const Status& s) {
     const size_t dropped = kSent - edges_.count();
     return s.level == Status::WARN && dropped > 0 && hasWords(s.message, {"scans dropped"}) &&

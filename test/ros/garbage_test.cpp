@@ -2,12 +2,17 @@
 // The three nodelets fed with stamps and transforms that nobody can use, between good ones.
 #include <functional>
 #include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "ros/conversions/checked_transforms.hpp"
 #include "ros/conversions/pose_messages.hpp"
 #include "ros/conversions/scan_transforms.hpp"
 #include "ros/conversions/stamp.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "ros/simulated_scans.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -117,15 +122,15 @@ class GarbageTest : public MapperTest {
     ASSERT_TRUE(load("voxelizer"));
     ASSERT_TRUE(load("edge_extractor"));
     start();
-    points_ = ros::NodeHandle().advertise<PointCloud2>(resolved("points"), 100);
+    points_ = advertise<PointCloud2>(resolved("points"), 100);
   }
 
   /// To each of the nodelets.
   void sendWithStamp(size_t i, const ros::Time& stamp) {
-    points_.publish(boost::make_shared<PointCloud2>(stamped(walk().clouds[i], stamp)));
+    publishShared(points_, copyOf(stamped(walk().clouds[i], stamp)));
     VoxelScanStamped scan = scans()[i];
     scan.header.stamp = stamp;
-    voxels_.publish(boost::make_shared<VoxelScanStamped>(scan));
+    publishShared(voxels_, copyOf(scan));
   }
 
   /// The cloud and its odometry, which comes before it; waits for its pose.
@@ -133,7 +138,7 @@ class GarbageTest : public MapperTest {
     publishTf({odometryOf(i, -0.03)});
     in_between();
     publishTf({odometryOf(i, 0.03)});
-    points_.publish(boost::make_shared<PointCloud2>(walk().clouds[i]));
+    publishShared(points_, copyOf(walk().clouds[i]));
     ASSERT_TRUE(odometry_.waitFor(i + 1)) << i;
   }
 
@@ -147,7 +152,7 @@ class GarbageTest : public MapperTest {
     publishTf({ahead});
     VoxelScanStamped scan = scans()[i];
     scan.header.stamp.sec += kDay;
-    voxels_.publish(boost::make_shared<VoxelScanStamped>(scan));
+    publishShared(voxels_, copyOf(scan));
   }
 
   void expectCounts() {

@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
+#include <rosbag/bag.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
-#include "launch_fixture.hpp"
+#include "ros/launch_fixture.hpp"
+#include "tools/cloud_message.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -1,95 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fcntl.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
-#include <ros/time.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/types.h>
 
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace edgevox::test {
 
 /// Handles messages until the condition holds; false if it does not within `seconds`.
-inline bool waitFor(const std::function<bool()>& condition, double seconds = 20) {
-  const ros::WallTime until = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (!condition()) {
-    if (!ros::ok() || ros::WallTime::now() > until) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.01).sleep();
-  }
-  return true;
-}
+bool waitFor(const std::function<bool()>& condition, double seconds = 20);
 
 /// A command that runs beside the test, as if typed in `folder`, with its output in `log`. It ends
 /// with the test.
 class Process {
  public:
   Process(const std::vector<std::string>& command, const std::filesystem::path& folder,
-          const std::filesystem::path& log) {
-    // A shell sets PWD as well.
-    std::vector<std::string> words = {"sh", "-c", "cd \"$0\" && export PWD && exec \"$@\"", folder};
-    words.insert(words.end(), command.begin(), command.end());
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-    const int in = ::open("/dev/null", O_RDONLY);
-    pid_ = ::fork();
-    if (pid_ == 0) become(arguments, in, out);
-    ::close(in);
-    ::close(out);
-    if (pid_ < 0) throw std::runtime_error("cannot start " + command.front());
-  }
+          const std::filesystem::path& log);
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  ~Process() {
-    interrupt();
-    const ros::WallTime until = ros::WallTime::now() + ros::WallDuration(30);
-    while (!hasEnded() && ros::WallTime::now() < until) ros::WallDuration(0.05).sleep();
-    if (hasEnded()) return;
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
+  ~Process();
 
   /// As Ctrl-C.
-  void interrupt() {
-    if (!exit_code_) ::kill(pid_, SIGINT);
-  }
+  void interrupt();
 
-  bool waitForEnd(double seconds) {
-    return waitFor([this] { return hasEnded(); }, seconds);
-  }
+  bool waitForEnd(double seconds);
 
   /// Empty while it runs and if a signal has ended it.
   std::optional<int> exitCode() const { return exit_code_ < 0 ? std::nullopt : exit_code_; }
 
  private:
-  [[noreturn]] static void become(std::vector<char*>& arguments, int in, int out) {
-    ::prctl(PR_SET_PDEATHSIG, SIGINT);
-    ::dup2(in, STDIN_FILENO);
-    ::dup2(out, STDOUT_FILENO);
-    ::dup2(out, STDERR_FILENO);
-    ::execvp(arguments.front(), arguments.data());
-    ::_exit(127);
-  }
-
-  bool hasEnded() {
-    if (exit_code_) return true;
-    int status = 0;
-    if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
-    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return true;
-  }
+  bool hasEnded();
 
   pid_t pid_ = -1;
   std::optional<int> exit_code_;  // -1: by a signal

@@ -1,52 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <sstream>
 
-#include "tools/map_bag_fixture.hpp"
-#include "tools/map_bag_run.hpp"
+#include "tools/map_bag_options.hpp"
 
 namespace edgevox::test {
 
 /// What map_bag writes to options.output.
-inline void mapOffline(const MapBagOptions& options) {
-  std::ostringstream log;
-  Console console(log, false);
-  runMapBag(options, console);
-}
+void mapOffline(const MapBagOptions& options);
 
-inline YAML::Node summaryOf(const std::filesystem::path& folder) {
-  return YAML::Load(contentOf(folder / "summary.json"));
-}
+YAML::Node summaryOf(const std::filesystem::path& folder);
 
 /// The files that hold no times are equal, byte for byte.
-inline void expectSameFiles(const std::filesystem::path& online,
-                            const std::filesystem::path& offline) {
-  for (const char* file : {"trajectory.tum", "map_edges.ply", "map_edges.pcd", "config.yaml"}) {
-    const std::string expected = contentOf(offline / file);
-    EXPECT_FALSE(expected.empty()) << file;
-    EXPECT_TRUE(contentOf(online / file) == expected) << file << " is not the same";
-  }
-}
+void expectSameFiles(const std::filesystem::path& online, const std::filesystem::path& offline);
 
 /// Nothing was dropped, and every scan fared as with map_bag.
-inline void expectSameRun(const std::filesystem::path& online,
-                          const std::filesystem::path& offline) {
-  expectSameFiles(online, offline);
-  YAML::Node ours = summaryOf(online);
-  YAML::Node expected = summaryOf(offline);
-  EXPECT_EQ(ours["dropped"].as<int>(-1), 0);
-  for (const char* name :
-       {"scans", "tracked", "fallback", "lost", "stale", "too_few_voxels", "without_odometry",
-        "odometry_jumps", "clock_jumps", "begun_anew", "degenerate", "edge_voxels",
-        "occupied_voxels", "points", "time_field", "point_times_ignored"}) {
-    EXPECT_EQ(ours[name].as<std::string>("none"), expected[name].as<std::string>("no such entry"))
-        << name;
-  }
-}
+void expectSameRun(const std::filesystem::path& online, const std::filesystem::path& offline);
 
 }  // namespace edgevox::test

@@ -2,9 +2,17 @@
 // The three nodelets as processes of their own, as if on three computers.
 #include <gtest/gtest.h>
 #include <ros/init.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/PointCloud2.h>
 
-#include "launch_feeder.hpp"
-#include "launch_run.hpp"
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ros/launch_feeder.hpp"
+#include "ros/launch_graph.hpp"
+#include "ros/launch_run.hpp"
+#include "tools/map_bag_fixture.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -7,17 +7,29 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
-#include <ros/service.h>
+#include <ros/param.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "edgevox/io/trajectory_io.hpp"
-#include "launch_fixture.hpp"
-#include "launch_graph.hpp"
 #include "ros/conversions/pose_messages.hpp"
+#include "ros/launch_fixture.hpp"
+#include "ros/launch_graph.hpp"
+#include "ros/launch_run.hpp"
+#include "ros/topics.hpp"
+#include "sim/worlds.hpp"
 #include "support/sweeps.hpp"
+#include "tools/cloud_message.hpp"
+#include "tools/map_bag_fixture.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -130,7 +142,7 @@ class Launch : public LaunchTest {
     const auto player = start(command);
     ASSERT_TRUE(waitFor([&] { return reports == kSweeps; })) << reports << " reports";
     SaveMap save;
-    ASSERT_TRUE(ros::service::call("/edgevox/save_map", save));
+    ASSERT_TRUE(callService("/edgevox/save_map", save));
     EXPECT_TRUE(save.response.success) << save.response.message;
   }
 

@@ -4,6 +4,7 @@
 #include <edgevox/LoadMap.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <std_srvs/Trigger.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <filesystem>
@@ -12,11 +13,15 @@
 #include "edgevox/io/atomic_file.hpp"
 #include "edgevox/io/map_file.hpp"
 #include "edgevox/mapping/localizer.hpp"
+#include "edgevox/mapping/mapper.hpp"
 #include "edgevox/scan/voxelizer.hpp"
 #include "ros/conversions/pose_messages.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "ros/simulated_scans.hpp"
 #include "sim/parts.hpp"
 #include "support/mapped_world.hpp"
+#include "support/sweeps.hpp"
 #include "support/temp_folder.hpp"
 #include "tools/map_bag_fixture.hpp"
 
@@ -98,13 +103,13 @@ class LocalizerTest : public MapperTest {
 
   void pointTo(const Pose& pose, const std::string& frame = "map") {
     if (!pointer_) {
-      pointer_ = ros::NodeHandle().advertise<PoseWithCovarianceStamped>(resolved("initialpose"), 1);
+      pointer_ = advertise<PoseWithCovarianceStamped>(resolved("initialpose"), 1);
       ASSERT_TRUE(eventually([&] { return pointer_.getNumSubscribers() > 0; }));
     }
     PoseWithCovarianceStamped message;
     message.header.frame_id = frame;
     message.pose.pose = toMessage(pose);
-    pointer_.publish(message);
+    publish(pointer_, message);
     ros::Duration(0.2).sleep();  // nothing tells that it has arrived
   }
 
@@ -299,10 +304,9 @@ TEST_F(LocalizerTest, TakesConfigurationAndFrameFromTheMap) {
   setParameter("voxelizer", "map_file", file);
   ASSERT_TRUE(load("voxelizer"));
   startIn(file);
-  const ros::Publisher points =
-      ros::NodeHandle().advertise<sensor_msgs::PointCloud2>(resolved("points"), 10);
+  const ros::Publisher points = advertise<sensor_msgs::PointCloud2>(resolved("points"), 10);
   ASSERT_TRUE(eventually([&] { return points.getNumSubscribers() > 0; }));
-  points.publish(walk().clouds[3]);
+  publish(points, walk().clouds[3]);
   ASSERT_TRUE(odometry_.waitFor(1));
   EXPECT_EQ("world", odometry_.messages()[0]->header.frame_id);
 }

@@ -3,8 +3,14 @@
 #include <nav_msgs/Path.h>
 
 #include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
+#include "edgevox/tracking/scan_result.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -242,7 +248,7 @@ TEST_F(FaultsTest, DropsWholeScansAndCountsThem) {
     numbered[i].number = i;
     numbered[i].dropped = 10;  // before they came here
   }
-  for (const VoxelScanStamped& scan : numbered) voxels_.publish(scan);
+  for (const VoxelScanStamped& scan : numbered) publish(voxels_, scan);
   EXPECT_TRUE(eventually([&] {  // the last is never dropped
     return reports_.count() > 0 && reports_.messages().back()->number == kScans - 1;
   }));
@@ -259,7 +265,7 @@ TEST_F(FaultsTest, DropsWholeScansAndCountsThem) {
     return s.level >= Status::WARN && hasWords(s.message, {"scans dropped", "slower rate"}) &&
            valueOf(s, "dropped") == std::to_string(dropped);
   }));
-  voxels_.publish(scans()[0]);
+  publish(voxels_, scans()[0]);
   ASSERT_TRUE(reports_.waitFor(used.size() + 1));
   EXPECT_EQ(dropped, reports_.messages().back()->dropped);
 }

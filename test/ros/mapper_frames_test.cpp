@@ -4,6 +4,7 @@
 
 #include "ros/conversions/pose_messages.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/Mapper: the map for listeners, and a new start by reset or reload.
 #include <nav_msgs/Path.h>
+#include <ros/service.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
 #include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
 
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "edgevox/map/map_builder.hpp"
+#include "edgevox/mapping/mapper.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "ros/simulated_scans.hpp"
 #include "tools/marker_display.hpp"
 
 namespace edgevox::test {
@@ -191,7 +203,7 @@ TEST_F(MapTest, IsNewAfterUnloadingAndLoading) {
   EXPECT_TRUE(unload("mapper"));
   EXPECT_EQ(0U, voxels_.getNumSubscribers());
   EXPECT_FALSE(ros::service::exists(resolved("reset"), false));
-  voxels_.publish(scans()[kMiddle]);  // to nobody
+  publish(voxels_, scans()[kMiddle]);  // to nobody
   ASSERT_TRUE(load("mapper"));
   map(scans());
   std::vector<Pose> expected = walkPoses();
@@ -203,7 +215,7 @@ TEST_F(MapTest, IsNewAfterUnloadingAndLoading) {
 TEST_F(MapTest, CanBeUnloadedWhileScansWait) {
   for (int round = 0; round < 5; ++round) {
     start();
-    for (const VoxelScanStamped& scan : scans()) voxels_.publish(scan);
+    for (const VoxelScanStamped& scan : scans()) publish(voxels_, scan);
     EXPECT_TRUE(eventually([&] { return reports_.count() > static_cast<size_t>(round); }));
     EXPECT_TRUE(unload("mapper"));
   }

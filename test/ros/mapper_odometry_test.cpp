@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/Mapper with an odometry frame: predictions from TF, and map -> odom on TF.
+#include <std_srvs/Trigger.h>
 #include <tf2/buffer_core.h>
 
 #include "ros/conversions/pose_messages.hpp"
 #include "ros/conversions/scan_transforms.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "support/sweeps.hpp"
 
 namespace edgevox::test {
 namespace {

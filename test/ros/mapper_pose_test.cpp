@@ -4,7 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "edgevox/mapping/pipeline.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "ros/simulated_scans.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/Mapper unloaded in the midst of its work, and loaded again.
 #include <fcntl.h>
+#include <std_srvs/Trigger.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +25,7 @@ class LongSave {
     caller_ = std::thread([this, service] {
       SaveMap save;
       save.request.folder = folder_.path().string();
-      ros::service::call(service, save);
+      callService(service, save);
     });
   }
   ~LongSave() {
@@ -72,7 +73,7 @@ TEST_F(ReloadTest, OffersItsServicesOnceTheOneBeforeHasEnded) {
       [&] { return !hasWords(statusesOf("mapper").back().message, {"not offered yet"}); }));
   EXPECT_TRUE(eventually([&] {
     std_srvs::Trigger reset;
-    return ros::service::call(resolved("reset"), reset) && reset.response.success;
+    return callService(resolved("reset"), reset) && reset.response.success;
   }));
   map(firstScans(3));
   EXPECT_EQ("first", statusOf(3));

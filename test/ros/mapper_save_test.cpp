@@ -2,6 +2,7 @@
 // edgevox/Mapper: what save_map writes, and what it refuses.
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
+#include <std_srvs/Trigger.h>
 #include <yaml-cpp/yaml.h>
 
 #include <fstream>
@@ -10,7 +11,10 @@
 #include "edgevox/io/atomic_file.hpp"
 #include "edgevox/io/map_file.hpp"
 #include "edgevox/io/trajectory_io.hpp"
+#include "edgevox/mapping/mapper.hpp"
+#include "ros/conversions/voxel_scan_message.hpp"
 #include "ros/mapper_fixture.hpp"
+#include "support/sweeps.hpp"
 #include "support/temp_folder.hpp"
 
 namespace edgevox::test {

@@ -8,10 +8,10 @@
 
 #include <algorithm>
 
-#include "launch_graph.hpp"
-#include "launch_process.hpp"
-#include "readme_table.hpp"
+#include "ros/launch_graph.hpp"
+#include "ros/launch_process.hpp"
 #include "ros/live/parameters.hpp"
+#include "ros/readme_table.hpp"
 #include "support/temp_folder.hpp"
 #include "tools/map_bag_fixture.hpp"
 

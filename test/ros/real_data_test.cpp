@@ -3,12 +3,14 @@
 // drops nothing either.
 #include <ros/init.h>
 #include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
-#include "launch_fixture.hpp"
+#include "ros/launch_fixture.hpp"
+#include "ros/launch_run.hpp"
 
 namespace edgevox::test {
 namespace {

@@ -2,14 +2,26 @@
 // Two mappings at a time do not touch each other.
 #include <gtest/gtest.h>
 #include <ros/init.h>
+#include <ros/node_handle.h>
 #include <ros/param.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <array>
 #include <regex>
+#include <set>
+#include <string>
+#include <vector>
 
-#include "launch_feeder.hpp"
-#include "launch_run.hpp"
+#include "ros/launch_feeder.hpp"
+#include "ros/launch_graph.hpp"
+#include "ros/launch_process.hpp"
+#include "ros/launch_run.hpp"
+#include "ros/topics.hpp"
+#include "tools/map_bag_fixture.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -37,10 +49,10 @@ geometry_msgs::TransformStamped mountingOfB(const ros::Time& stamp) {
 class TwoInstances : public MapBagTest {
  protected:
   TwoInstances() {
-    static_ = handle_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    static_ = advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     tf2_msgs::TFMessage message;
     message.transforms.push_back(mountingOfB(clouds_b_.front().header.stamp));
-    static_.publish(message);
+    publish(static_, message);
   }
 
   void feedBoth() {
@@ -76,7 +88,6 @@ class TwoInstances : public MapBagTest {
   FrameTree tree_;
   std::vector<PointCloud2> clouds_a_ = cloudsOf(0, "lidar_a");
   std::vector<PointCloud2> clouds_b_ = cloudsOf(1, "lidar_b");
-  ros::NodeHandle handle_;
   ros::Publisher static_;
   Feeder a_{"/a", "/points_a"};
   Feeder b_{"/b", "/points_b"};

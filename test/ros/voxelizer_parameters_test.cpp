@@ -3,7 +3,7 @@
 #include <fstream>
 #include <vector>
 
-#include "nodelet_fixture.hpp"
+#include "ros/nodelet_fixture.hpp"
 #include "support/temp_folder.hpp"
 
 namespace edgevox::test {

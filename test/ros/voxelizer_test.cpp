@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // edgevox/Voxelizer: clouds in, voxels out.
-#include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
-#include "nodelet_fixture.hpp"
+#include "edgevox/config.hpp"
+#include "ros/conversions/point_cloud.hpp"
+#include "ros/nodelet_fixture.hpp"
 #include "ros/simulated_scans.hpp"
+#include "tools/cloud_message.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox::test {
 namespace {
@@ -21,11 +27,11 @@ class VoxelizerTest : public NodeletTest {
   void start(int queue_size = 100) {
     setParameter("voxelizer", "queue_size", queue_size);
     ASSERT_TRUE(load("voxelizer"));
-    points_ = ros::NodeHandle().advertise<Cloud>(resolved("points"), 100);
+    points_ = advertise<Cloud>(resolved("points"), 100);
     ASSERT_EQ(1U, points_.getNumSubscribers());
   }
 
-  void send(const Cloud& cloud) { points_.publish(boost::make_shared<Cloud>(cloud)); }
+  void send(const Cloud& cloud) { publishShared(points_, copyOf(cloud)); }
 
   VoxelScan voxelized(const Cloud& cloud) {
     return Voxelizer(config_.voxelizer, config_.voxel_size).voxelize(viewOf(cloud));
@@ -214,9 +220,9 @@ TEST_F(VoxelizerTest, DropsWholeCloudsAndCountsThem) {
   start(kWaiting);
   std::vector<Cloud::ConstPtr> sent;  // made before the first is sent
   for (size_t i = 0; i < kSent; ++i) {
-    sent.push_back(boost::make_shared<Cloud>(stamped(clouds()[i % 4], stampOf(double(i)))));
+    sent.push_back(copyOf(stamped(clouds()[i % 4], stampOf(double(i)))));
   }
-  for (const auto& cloud : sent) points_.publish(cloud);
+  for (const auto& cloud : sent) publishShared(points_, cloud);
 
   const auto last_is_there = [&] {
     const auto messages = voxels_.messages();

@@ -3,6 +3,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -14,14 +15,7 @@ namespace edgevox::test {
 
 using Field = sensor_msgs::PointField;
 
-inline Field makeField(const std::string& name, uint32_t offset, uint8_t type) {
-  Field field;
-  field.name = name;
-  field.offset = offset;
-  field.datatype = type;
-  field.count = 1;
-  return field;
-}
+Field makeField(const std::string& name, uint32_t offset, uint8_t type);
 
 /// Puts a value into a point of the message.
 template <typename T>
@@ -31,26 +25,7 @@ void put(sensor_msgs::PointCloud2& cloud, size_t row, size_t column, size_t offs
 }
 
 /// A cloud of float32 x, y, z at the start of `point_step` bytes, filled with 0xff elsewhere.
-inline sensor_msgs::PointCloud2 makeCloud(const std::vector<Eigen::Vector3f>& points,
-                                          uint32_t point_step = 12) {
-  sensor_msgs::PointCloud2 cloud;
-  cloud.header.frame_id = "lidar";
-  cloud.header.stamp = ros::Time(1600000000, 500000000);
-  cloud.fields = {makeField("x", 0, Field::FLOAT32), makeField("y", 4, Field::FLOAT32),
-                  makeField("z", 8, Field::FLOAT32)};
-  cloud.width = static_cast<uint32_t>(points.size());
-  cloud.height = 1;
-  cloud.point_step = point_step;
-  cloud.row_step = cloud.width * point_step;
-  cloud.is_bigendian = 0;
-  cloud.is_dense = 1;
-  cloud.data.assign(cloud.row_step, 0xff);
-  for (size_t i = 0; i < points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      put(cloud, 0, i, 4 * static_cast<size_t>(axis), points[i][axis]);
-    }
-  }
-  return cloud;
-}
+sensor_msgs::PointCloud2 makeCloud(const std::vector<Eigen::Vector3f>& points,
+                                   uint32_t point_step = 12);
 
 }  // namespace edgevox::test

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "map_bag_fixture.hpp"
 #include "support/random.hpp"
 #include "tools/bag_reader.hpp"
+#include "tools/map_bag_fixture.hpp"
 
 namespace edgevox {
 namespace {

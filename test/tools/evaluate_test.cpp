@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "map_bag_fixture.hpp"
 #include "run/run_folder.hpp"
+#include "tools/map_bag_fixture.hpp"
 
 namespace edgevox {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "edgevox/io/atomic_file.hpp"
 #include "edgevox/io/trajectory_io.hpp"
-#include "map_bag_fixture.hpp"
 #include "tools/bag_reader.hpp"
+#include "tools/map_bag_fixture.hpp"
 
 namespace edgevox {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "edgevox/io/map_file.hpp"
 #include "edgevox/io/trajectory_io.hpp"
-#include "map_bag_fixture.hpp"
+#include "tools/map_bag_fixture.hpp"
 #include "tools/options.hpp"
 
 namespace edgevox {

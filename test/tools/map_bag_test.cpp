@@ -13,8 +13,10 @@
 #include "edgevox/edges/density_monitor.hpp"
 #include "edgevox/io/trajectory_io.hpp"
 #include "edgevox/scan/motion.hpp"
-#include "map_bag_fixture.hpp"
+#include "sim/scanner.hpp"
 #include "support/sweeps.hpp"
+#include "tools/map_bag_fixture.hpp"
+#include "tools/simulated_bag.hpp"
 
 namespace edgevox {
 namespace {

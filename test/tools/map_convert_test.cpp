@@ -12,8 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "map_tool_fixture.hpp"
+#include "edgevox/io/map_file.hpp"
 #include "tools/map/floor_plan.hpp"
+#include "tools/map_tool_fixture.hpp"
 
 namespace edgevox::test {
 namespace {

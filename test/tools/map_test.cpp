@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "edgevox/io/map_file.hpp"
 #include "edgevox/mapping/localizer.hpp"
-#include "map_tool_fixture.hpp"
+#include "tools/map_tool_fixture.hpp"
 
 namespace edgevox::test {
 namespace {

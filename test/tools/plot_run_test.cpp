@@ -9,8 +9,8 @@
 #include <string>
 
 #include "edgevox/io/atomic_file.hpp"
-#include "map_bag_fixture.hpp"
 #include "run/run_folder.hpp"
+#include "tools/map_bag_fixture.hpp"
 
 namespace edgevox {
 namespace {

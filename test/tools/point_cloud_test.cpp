@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud_message.hpp"
+#include "tools/cloud_message.hpp"
 
 namespace edgevox {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "map_bag_fixture.hpp"
 #include "support/temp_folder.hpp"
+#include "tools/map_bag_fixture.hpp"
 #include "tools/map_bag_run.hpp"
 
 namespace edgevox::test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cloud_message.hpp"
 #include "edgevox/scan/voxelizer.hpp"
+#include "tools/cloud_message.hpp"
 
 namespace edgevox {
 namespace {
