@@ -2,10 +2,12 @@
 #include "evaluation/recording.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
 #include "evaluation/bag_recording.hpp"
+#include "evaluation/scan_folder.hpp"
 #include "sim/scanner.hpp"
 
 namespace edgevox {
@@ -50,6 +52,47 @@ Recording simulate(const RecordingOptions& options) {
   return recording;
 }
 
+/// How many scans are gone through to have those wanted.
+size_t scansToSee(const RecordingOptions& options) {
+  const size_t all = std::numeric_limits<size_t>::max();
+  if (options.most > (all - options.first) / options.every) return all;
+  return options.first + options.most * options.every;
+}
+
+RecordedScan copyOf(const CloudView& cloud, const Pose& T_map_sensor) {
+  RecordedScan scan;
+  scan.bytes.assign(cloud.data, cloud.data + cloud.row_step * cloud.height);
+  scan.view = cloud;
+  scan.view.data = scan.bytes.data();
+  scan.T_map_sensor = T_map_sensor;
+  return scan;
+}
+
+Recording readFolder(const RecordingOptions& options) {
+  Recording recording;
+  recording.name = recordingName(options.input);
+  recording.source =
+      "from " + (options.poses.empty() ? recording.name : options.poses.filename().string());
+  size_t number = 0;
+  folderStream(options.input, options.poses)(
+      scansToSee(options), [&](const CloudView& cloud, const TruePose& truth) {
+        const size_t taken = recording.scans.size() + recording.without_pose;
+        if (!isWanted(number++, taken, options)) return;
+        if (truth) {
+          recording.scans.push_back(copyOf(cloud, truth(0.0)));
+        } else {
+          ++recording.without_pose;
+        }
+      });
+  return recording;
+}
+
+Recording read(const RecordingOptions& options) {
+  if (isSimulated(options.input)) return simulate(options);
+  return std::filesystem::is_directory(options.input) ? readFolder(options)
+                                                      : readBagRecording(options);
+}
+
 }  // namespace
 
 Pose Recording::poseAt(size_t scan, double time_offset) const {
@@ -71,7 +114,7 @@ bool isWanted(size_t scan, size_t taken, const RecordingOptions& options) {
 Recording makeRecording(const RecordingOptions& options) {
   if (options.every == 0) throw std::invalid_argument("--every must be at least 1");
   if (options.most == 0) throw std::invalid_argument("--scans must be at least 1");
-  Recording recording = isSimulated(options.input) ? simulate(options) : readBagRecording(options);
+  Recording recording = read(options);
   if (recording.scans.empty()) {
     throw std::invalid_argument("no scan of '" + options.input +
                                 "' is left; check --first and --poses");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the evaluations work on: the scans of a bag or of a simulated world, with their poses.
+// What the evaluations work on: the scans of a bag, of a folder or of a simulated world, with their
+// poses.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,11 @@
 namespace edgevox {
 
 struct RecordingOptions {
-  std::string input;            ///< a bag, or WORLD[+movers]:SENSOR[:SEED] as in "building:32"
+  /// A bag, a folder, see folderStream(), or WORLD[+movers]:SENSOR[:SEED] as in "building:32".
+  std::string input;
   std::string topic;            ///< of a bag; empty: its only one with clouds
-  std::filesystem::path poses;  ///< TUM, of a bag's sensor; empty: as Pipeline finds them
+  std::filesystem::path poses;  ///< TUM, of a bag's sensor, or as folderStream() takes them; empty:
+                                ///< of a bag as Pipeline finds them
   size_t first = 0;             ///< take the scan of this number, counted from 0, ...
   size_t every = 1;             ///< ... and every n-th from there on ...
   size_t most = 100;            ///< ... and so many at most

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "edgevox/io/trajectory_evaluation.hpp"
 #include "evaluation/bag_clouds.hpp"
+#include "evaluation/scan_folder.hpp"
 #include "evaluation/simulated_truth.hpp"
 
 namespace edgevox {
-namespace {
 
 TruePose poseAround(double stamp, const Trajectory& trajectory) {
   const auto matches = matchStamps({{stamp, Pose::Identity()}}, trajectory);
@@ -17,8 +18,6 @@ TruePose poseAround(double stamp, const Trajectory& trajectory) {
   const SensorMotion motion = motionAt(trajectory, matches.front().reference);
   return [motion](double time_offset) { return motion.poseAt(time_offset); };
 }
-
-}  // namespace
 
 ScanStream simulatedStream(const std::string& input) {
   const auto truth = std::make_shared<const SimulatedTruth>(simulatedTruth(input));
@@ -46,6 +45,21 @@ ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses)
         },
         most);
   };
+}
+
+std::string recordingName(const std::filesystem::path& recording) {
+  const std::filesystem::path plain = std::filesystem::absolute(recording).lexically_normal();
+  return (plain.has_filename() ? plain : plain.parent_path()).filename();
+}
+
+ScanStream streamOf(const std::string& input, const std::filesystem::path& poses) {
+  if (!isSimulated(input)) {
+    return std::filesystem::is_directory(input) ? folderStream(input, poses)
+                                                : bagStream(input, poses);
+  }
+  if (poses.empty()) return simulatedStream(input);
+  throw std::invalid_argument("the poses of the simulated '" + input + "' are known: leave out '" +
+                              poses.string() + "'");
 }
 
 }  // namespace edgevox

@@ -14,13 +14,13 @@ namespace po = boost::program_options;
 void addRecordingOptions(po::options_description& known) {
   auto add = known.add_options();
   add("input", po::value<std::string>()->required(),
-      "a bag, or WORLD:SENSOR[:SEED] to simulate (building, street or corridor; 16, 32, 64 or "
-      "scanner), as in building:32; building+movers:32 if people are to walk about and boxes to be "
-      "taken away; the first argument");
+      "a bag, a folder of scans, or WORLD:SENSOR[:SEED] to simulate (building, street or corridor; "
+      "16, 32, 64 or scanner), as in building:32; building+movers:32 if people are to walk about "
+      "and boxes to be taken away; the first argument");
   add("topic", po::value<std::string>()->default_value("", "the only one with clouds"),
       "of a bag's clouds");
   add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),
-      "of a bag's sensor at the clouds' stamps, TUM format");
+      "of a bag's sensor at the clouds' stamps, TUM format; or of the scans of a folder");
   add("first", po::value<int64_t>()->default_value(0), "begin with this scan, counted from 0");
   add("every", po::value<int64_t>()->default_value(1), "take every N-th scan from there on");
   add("scans", po::value<int64_t>()->default_value(100), "take so many scans at most");

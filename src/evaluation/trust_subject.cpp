@@ -40,7 +40,8 @@ po::options_description describe() {
       "map every n-th scan, for each n of this list");
   add("bag", po::value<std::vector<std::string>>()->multitoken()->composing(),
       "FILE[=TUM] ..., bags with one topic of clouds, and the trajectories of their sensors; "
-      "without one, a bag is compared with what the default configuration finds from all clouds");
+      "without one, a bag is compared with what the default configuration finds from all clouds; "
+      "or FOLDER[=POSES], scans in files");
   add("most", po::value<int64_t>()->default_value(std::numeric_limits<int64_t>::max(), "all"),
       "take so many scans of a recording at most, counted before strides");
   add("jobs,j",
@@ -51,8 +52,8 @@ po::options_description describe() {
       "also measure from how wrong a guess the pose of a scan is found, beside PCL's GICP and NDT; "
       "writes FOLDER/capture.md and capture.csv");
   add("capture-inputs", po::value<std::vector<std::string>>()->multitoken(),
-      "WORLD:SENSOR[:SEED] or FILE[=TUM] ..., for --capture (default: building:32 and the first "
-      "--bag)");
+      "WORLD:SENSOR[:SEED], FILE[=TUM] or FOLDER[=POSES] ..., for --capture (default: building:32 "
+      "and the first --bag)");
   add("trials", po::value<int64_t>()->default_value(500), "at least, of a row of --capture");
   addConfigOptions(known);
   add("output,o", po::value<std::string>()->required(), "folder for the results; made if need be");
@@ -83,25 +84,21 @@ struct Input {
   ScanStream scans;
 };
 
-/// Of FILE[=TUM].
-Input bagOf(const std::string& text) {
-  const size_t equals = fs::exists(text) ? std::string::npos : text.rfind('=');
-  const fs::path bag = text.substr(0, equals);
-  const std::string poses = equals == std::string::npos ? "" : text.substr(equals + 1);
-  const std::string name = bag.filename().string();
-  if (!Table::isText(name)) throw UsageError("no name for a table: '" + name + "'; rename the bag");
-  return {name, bagStream(bag, poses)};
-}
-
+/// Of a simulated world, FILE[=TUM] or FOLDER[=POSES].
 Input inputOf(const std::string& text) {
-  return isSimulated(text) ? Input{text, simulatedStream(text)} : bagOf(text);
+  const size_t equals = fs::exists(text) ? std::string::npos : text.rfind('=');
+  const std::string recording = text.substr(0, equals);
+  const std::string poses = equals == std::string::npos ? "" : text.substr(equals + 1);
+  const std::string name = isSimulated(recording) ? recording : recordingName(recording);
+  if (!Table::isText(name)) throw UsageError("no name for a table: '" + name + "'; rename it");
+  return {name, streamOf(recording, poses)};
 }
 
 std::vector<TrustRecording> recordingsOf(const po::variables_map& given) {
   std::vector<TrustRecording> recordings;
   addSimulated(given, recordings);
   for (const std::string& text : textsOf(given, "bag")) {
-    Input bag = bagOf(text);
+    Input bag = inputOf(text);
     recordings.push_back({bag.name, "", "", 0, std::move(bag.scans)});
   }
   return recordings;
