@@ -27,7 +27,8 @@ po::options_description describe() {
       "first. Each method runs in a process of its own.\nOptions");
   auto add = known.add_options();
   add("input", po::value<std::string>()->required(),
-      "a bag, or WORLD:SENSOR[:SEED] to simulate, as in building:32; the first argument");
+      "a bag, a folder of scans with poses (3DTK, KITTI, PCD or PLY), or WORLD:SENSOR[:SEED] to "
+      "simulate, as in building:32; the first argument");
   add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),
       "of a bag's sensor at the clouds' stamps, TUM format");
   add("every", po::value<int64_t>()->default_value(1), "take every N-th scan");
@@ -100,9 +101,7 @@ void evaluatePaper(const Arguments& arguments) {
   const std::vector<NamedPaperMethod> methods = methodsOf(*given, options.config);
   const fs::path folder = (*given)["output"].as<std::string>();
   const auto input = (*given)["input"].as<std::string>();
-  const bool is_file = fs::exists(input);
-  const ScanStream scans =
-      is_file ? bagStream(input, (*given)["poses"].as<std::string>()) : simulatedStream(input);
+  const ScanStream scans = streamOf(input, (*given)["poses"].as<std::string>());
   makeFolder(folder);
   std::vector<PaperRow> rows;
   for (const NamedPaperMethod& method : methods) {  // before there are threads, as they fork
@@ -111,9 +110,8 @@ void evaluatePaper(const Arguments& arguments) {
   }
   const PaperData data = measureData(scans, options);
   writeFile(folder / "ratios.csv", paperRatios(data).csv());
-  const std::string name = is_file ? fs::path(input).stem().string() : input;
   writeResults(folder, "paper", "plot_paper", paperScans(rows),
-               paperMarkdown(name, data, rows, options));
+               paperMarkdown(recordingName(input), data, rows, options));
 }
 
 }  // namespace edgevox

@@ -158,19 +158,20 @@ RestartPoses restartPoses(const MatchMap& map, const ScanSample& sample, const P
     int hits = 0;
   };
   RestartPoses starts;
-  starts.level = coarsestLevelWithin(map, kDrawnVoxel);
+  const int level = coarsestLevelWithin(map, kDrawnVoxel);
+  starts.level = std::min(level + 1, map.levels() - 1);
   DiscreteSearch search(map, sample, kDrawnPoints);
   uint64_t state = mixBits(seed + 1);
   std::vector<Drawn> drawn(kDrawn);
   for (size_t i = 0; i < drawn.size(); ++i) {
     const double growth = kGrowth * static_cast<double>(i + 1) / kDrawn;
     drawn[i].T_map_sensor = disturbed(guess, reach * growth, state);
-    drawn[i].hits = search.hits(starts.level, drawn[i].T_map_sensor);
+    drawn[i].hits = search.hits(level, drawn[i].T_map_sensor);
   }
   starts.look_ups = search.lookUps();
   std::stable_sort(drawn.begin(), drawn.end(),
                    [](const Drawn& a, const Drawn& b) { return a.hits > b.hits; });
-  const double near_distance = kNearDistance * map.voxelSize(starts.level);
+  const double near_distance = kNearDistance * map.voxelSize(level);
   for (const Drawn& pose : drawn) {
     if (starts.best.size() == most) break;
     const bool known = std::any_of(starts.best.begin(), starts.best.end(), [&](const Pose& better) {

@@ -53,7 +53,7 @@ class DiscreteSearch {
 /// Where restarts begin.
 struct RestartPoses {
   std::vector<Pose> best;  ///< the best first
-  int level = 0;           ///< from which to climb
+  int level = 0;           ///< from which to climb, a coarser one
   uint64_t look_ups = 0;
 };
 /// Of many poses drawn around a guess, within 1 m and 25 degrees on each axis times `reach` and up

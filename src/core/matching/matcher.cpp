@@ -27,7 +27,8 @@ constexpr double kTrustedStep = 1.0;         // of a refinement alone [voxel of 
 constexpr double kNearStep = 0.25;           // after which other points may be near [voxel]
 constexpr double kLeastKnown = 0.25;         // of a sample
 constexpr int kKnownLevel = 3;
-constexpr int kStepsFromFar = 80;         // of a refinement
+constexpr int kStepsFromFar = 80;         // of a refinement, where the prediction is ...
+constexpr double kFarSigma = 0.5;         // ... less sure than this [m]
 constexpr double kWidest = 16.0;          // of the squared kernel of a refinement
 constexpr double kNarrowing = 0.25;       // of that, each step
 constexpr double kSharpSigma = 0.02;      // of a prediction that needs no wider kernel [m]
@@ -139,7 +140,7 @@ MatchResult Matcher::refineFrom(const MatchMap& map, const ScanSample& sample,
   refinement.start = start;
   refinement.predicted = request.guess;
   refinement.widening = widening;
-  if (widening >= kWidest) refinement.steps = kStepsFromFar;
+  if (request.guess.sigma() > kFarSigma) refinement.steps = kStepsFromFar;
   refinement.all_voxels = request.all_voxels;
   refinement.compares = request.doubtful;
   return verified(map, sample, request, refine(map, sample, refinement));

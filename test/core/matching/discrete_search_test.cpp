@@ -242,11 +242,11 @@ TEST(RestartPoses, AreTheBestOfTheirKindAndDistinct) {
   const RestartPoses starts = restartsAround(offBy({1.0, -0.7, 0.2}, {5.0, -8.0, 20.0}), 60);
   ASSERT_EQ(60U, starts.best.size());
   EXPECT_EQ(200000U, starts.look_ups);
-  EXPECT_EQ(1.6, room().map.voxelSize(starts.level));
+  const int level = starts.level - 1;  // by which they are compared
+  EXPECT_EQ(1.6, room().map.voxelSize(level));
   DiscreteSearch search(room().map, room().sample, 100);
   for (size_t i = 0; i + 1 < starts.best.size(); ++i) {
-    EXPECT_GE(search.hits(starts.level, starts.best[i]),
-              search.hits(starts.level, starts.best[i + 1]));
+    EXPECT_GE(search.hits(level, starts.best[i]), search.hits(level, starts.best[i + 1]));
     for (size_t j = i + 1; j < starts.best.size(); ++j) {
       EXPECT_FALSE(areNear(starts.best[i], starts.best[j], 0.39, 4.9 * kDegree)) << i << " " << j;
     }
@@ -285,10 +285,10 @@ TEST(RestartPoses, OfFinerVoxelsAreAsFarApart) {
   config.voxel_size = 0.05;
   const MatchMap map = mapFrom(room().world, {room().truth}, config);
   const RestartPoses starts = restartPoses(map, room().sample, room().truth, 1.0, 7, 5);
-  EXPECT_EQ(1.6, map.voxelSize(starts.level));
+  EXPECT_EQ(3.2, map.voxelSize(starts.level));
   config.voxel_size = 1.0;
   const MatchMap coarse = mapFrom(room().world, {room().truth}, config);
-  EXPECT_EQ(DiscreteSearch::kFinestLevel,
+  EXPECT_EQ(DiscreteSearch::kFinestLevel + 1,
             restartPoses(coarse, room().sample, room().truth, 1.0, 7, 5).level);
 }
 
