@@ -107,14 +107,15 @@ std::vector<NamedPaperMethod> paperMethods(const Config& config) {
   const auto add = [&](const char* name, PaperVoxels voxels, auto make) {
     methods.push_back({name, voxels, std::move(make)});
   };
-  for (const auto& [name, voxels] : {std::pair("ICP, all voxels", PaperVoxels::kAll),
-                                     std::pair("ICP, edge voxels", PaperVoxels::kEdges),
-                                     std::pair("ICP, octree leaves", PaperVoxels::kOctreeLeaves)}) {
+  for (const auto& [name, voxels] :
+       {std::pair("ICP on all voxels", PaperVoxels::kAll),
+        std::pair("ICP on edge voxels", PaperVoxels::kEdges),
+        std::pair("ICP on octree leaves", PaperVoxels::kOctreeLeaves)}) {
     add(name, voxels, [voxels = voxels] { return makeIcp(voxels); });
   }
   const double size = config.voxel_size;
-  for (const auto& [name, voxels] : {std::pair("MROL, all voxels", PaperVoxels::kAll),
-                                     std::pair("MROL, edge voxels", PaperVoxels::kEdges)}) {
+  for (const auto& [name, voxels] : {std::pair("MROL on all voxels", PaperVoxels::kAll),
+                                     std::pair("MROL on edge voxels", PaperVoxels::kEdges)}) {
     add(name, voxels, [=, voxels = voxels] { return makePublished(size, voxels); });
   }
   for (const auto& [name, representation] : {std::pair("edgevox edges", Representation::kEdges),

@@ -42,7 +42,7 @@ class PaperMethod {
 enum class PaperVoxels { kAll, kEdges, kOctreeLeaves };
 
 struct NamedPaperMethod {
-  std::string name;
+  std::string name;                        ///< as a text of Table
   PaperVoxels voxels = PaperVoxels::kAll;  ///< whose map is counted
   std::function<std::unique_ptr<PaperMethod>()> make;
 };

@@ -162,9 +162,7 @@ Table paperScans(const std::vector<PaperRow>& rows) {
   for (const PaperRow& row : rows) {
     for (const PaperRecord& scan : row.scans) {
       table.addRow();
-      std::string name = row.name;
-      name.erase(std::remove(name.begin(), name.end(), ','), name.end());
-      table.set("method", name);
+      table.set("method", row.name);
       table.set("scan", static_cast<double>(scan.scan));
       table.set("voxels", static_cast<double>(scan.voxels));
       table.set("edges", static_cast<double>(scan.edges));

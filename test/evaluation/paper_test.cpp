@@ -186,18 +186,18 @@ TEST(PaperData, CountsWhatARecordingHolds) {
 
 TEST(PaperReport, TellsWhatExceedsALimit) {
   PaperRow row;
-  row.name = "ICP, edge voxels";
+  row.name = "ICP on edge voxels";
   PaperRecord scan;
   scan.located = 1;
   scan.metres = 0.02;
   row.scans = {scan, scan};
   PaperRow ended = row;
-  ended.name = "MROL, all voxels";
+  ended.name = "MROL on all voxels";
   ended.end = PaperEnd::kTime;
   const PaperOptions options = fewScans();
   const std::string text = paperMarkdown("here", PaperData(), {row, ended}, options);
   EXPECT_NE(std::string::npos, text.find("more than 600 s")) << text;
-  EXPECT_NE(std::string::npos, text.find("| ICP, edge voxels | 2 | 100.0 |")) << text;
+  EXPECT_NE(std::string::npos, text.find("| ICP on edge voxels | 2 | 100.0 |")) << text;
   EXPECT_EQ(4U, paperScans({row, ended}).rows());
   EXPECT_EQ(PaperData::kBins, paperRatios(PaperData()).rows());
 }

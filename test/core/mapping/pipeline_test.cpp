@@ -93,7 +93,7 @@ TEST(Building, IsMappedByEdgesOfScansAlone) {
   EXPECT_EQ(0U, edges.lost);
   EXPECT_LT(evaluate(edges.trajectory, building().truth).ape_rmse_m, 0.15);
   EXPECT_GT(edges.voxels, 500U);
-  EXPECT_LT(edges.voxels, run(ScanVoxels::kAll).voxels * 2 / 3);
+  EXPECT_LT(edges.voxels, run(ScanVoxels::kAll).voxels * 9 / 10);
 }
 
 TEST(Corridor, FifteenSecondsAreMapped) {

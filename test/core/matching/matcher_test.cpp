@@ -250,7 +250,9 @@ TEST(Match, OfAnotherPlaceIsNotAccepted) {
     const auto result = room.matcher().match(
         room.map, sampleCentroids(voxelScans({sweep}, room.config)[0], 3000), request);
     EXPECT_FALSE(result.accepted()) << time;
-    EXPECT_EQ(room.config.matcher.max_restarts, result.restarts);
+    EXPECT_TRUE(result.restarts == room.config.matcher.max_restarts || result.look_ups > 12000000U)
+        << result.restarts << " restarts, " << result.look_ups << " look-ups";
+    EXPECT_GT(result.restarts, 20);
     best = std::max(best, result.hit_ratio);
   }
   RecordProperty("best_hit_ratio", std::to_string(best));
