@@ -46,8 +46,10 @@ TrackingIo::TrackingIo(const ros::NodeHandle& handle, const TrackingParameters& 
       map_transform_(handle, transforms_.transforms(), parameters.map_frame,
                      parameters.frames.odom),
       pose_publisher_(handle, parameters.map_frame, parameters.frames.base, parameters.path_length),
-      input_(handle, "voxels", parameters.queue_size, log,
-             [this](const Input::Arrival& arrival) { process(arrival); }) {}
+      input_(
+          handle, parameters.config.mapper.scan_voxels == ScanVoxels::kEdges ? "edges" : "voxels",
+          parameters.queue_size, log, [this](const Input::Arrival& arrival) { process(arrival); }) {
+}
 
 void TrackingIo::start(std::function<void()> load) {
   services_.add("pause", &TrackingIo::pause, this);
