@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "benchmarks.hpp"
+#include "core/matching/discrete_search.hpp"
 #include "core/scan/scan_sample.hpp"
 #include "edgevox/map/map_builder.hpp"
 #include "edgevox/mapping/pipeline.hpp"
@@ -74,15 +75,16 @@ ScanSample sampleOf(const Sequence& s, size_t i) {
   return sample;
 }
 
+DiscreteSearch searchOf(const Sequence& s, const MapBuilder& map, const ScanSample& sample) {
+  return {map.matchMap(), sample, static_cast<size_t>(s.config.matcher.search_points)};
+}
+
 void search(State& state, const std::string& name) {
   const Sequence& s = sequence(name);
   const MapBuilder map = mapOf(s, s.sample());
   const ScanSample sample = sampleOf(s, s.sample());
-  const Matcher matcher(s.config.matcher);
-  const auto points = static_cast<size_t>(s.config.matcher.search_points);
   const Pose guess = s.predicted(s.sample());
-  for (auto _ : state)
-    benchmark::DoNotOptimize(matcher.search(map.matchMap(), sample, points, guess));
+  for (auto _ : state) benchmark::DoNotOptimize(searchOf(s, map, sample).climb(guess));
 }
 
 void refine(State& state, const std::string& name) {
@@ -90,10 +92,9 @@ void refine(State& state, const std::string& name) {
   const MapBuilder map = mapOf(s, s.sample());
   const ScanSample sample = sampleOf(s, s.sample());
   const Matcher matcher(s.config.matcher);
-  const auto points = static_cast<size_t>(s.config.matcher.search_points);
   Matcher::Refinement refinement;
   refinement.start = refinement.predicted.T_map_sensor =
-      matcher.search(map.matchMap(), sample, points, s.predicted(s.sample()));
+      searchOf(s, map, sample).climb(s.predicted(s.sample()));
   for (auto _ : state) benchmark::DoNotOptimize(matcher.refine(map.matchMap(), sample, refinement));
 }
 

@@ -2,7 +2,6 @@
 #include "evaluation/paper_data.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -11,7 +10,9 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/edges/dense_kernel.hpp"
+#include "core/map/voxel_tree.hpp"
 #include "edgevox/edges/edge_extractor.hpp"
+#include "edgevox/stage_timer.hpp"
 #include "evaluation/octree_leaves.hpp"
 
 namespace edgevox {
@@ -68,15 +69,8 @@ class Gradients {
   std::vector<Eigen::Vector3d> values_;
 };
 
-std::vector<VoxelIndex> indicesOf(const BitGrid<16>& voxels) {
-  std::vector<VoxelIndex> indices;
-  voxels.forEach([&](const VoxelIndex& v) { indices.push_back(v); });
-  std::sort(indices.begin(), indices.end());
-  return indices;
-}
-
 size_t mergedLeavesOf(const BitGrid<16>& voxels) {
-  std::vector<VoxelIndex> leaves = indicesOf(voxels);
+  std::vector<VoxelIndex> leaves = inTreeOrder(voxels);
   for (VoxelIndex& v : leaves) v = {v.x + kIndexLimit, v.y + kIndexLimit, v.z + kIndexLimit};
   return mergedLeafCount(std::move(leaves));
 }
@@ -94,7 +88,7 @@ Eigen::Vector3i extentOf(const BitGrid<16>& voxels) {
 }
 
 void addRatios(const BitGrid<16>& occupied, PaperData& data) {
-  for (const Eigen::Vector3d& values : publishedEigenvalues(occupied, indicesOf(occupied))) {
+  for (const Eigen::Vector3d& values : publishedEigenvalues(occupied, inTreeOrder(occupied))) {
     const double ratio = values[2] > 0 ? values[1] / values[2] : 0.0;
     const auto bin = static_cast<size_t>(std::clamp(ratio, 0.0, 1.0) * PaperData::kBins);
     ++data.ratios[std::min(bin, PaperData::kBins - 1)];
@@ -109,23 +103,13 @@ std::vector<ExtractionTime> timeExtraction(const VoxelScan& scan, const EdgeConf
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kTimings; ++i) {
       VoxelScan copy = scan;
-      const auto start = std::chrono::steady_clock::now();
+      StageTimer timer(Clock::kWall);
       extractor.extract(copy);
-      const std::chrono::duration<double, std::milli> taken =
-          std::chrono::steady_clock::now() - start;
-      least = std::min(least, taken.count());
+      least = std::min(least, 1e3 * timer.lap());
     }
     times.push_back({threads, least});
   }
   return times;
-}
-
-void setVoxels(const VoxelScan& scan, const Pose& T_map_sensor, double voxel_size,
-               BitGrid<16>& voxels) {
-  for (const ScanVoxel& voxel : scan.voxels) {
-    const Eigen::Vector3d centroid = T_map_sensor * voxel.centroid.cast<double>();
-    if (inGridRange(centroid, voxel_size)) voxels.set(voxelAt(centroid, 1.0 / voxel_size));
-  }
 }
 
 }  // namespace
@@ -156,8 +140,8 @@ PaperData measureData(const ScanStream& scans, const PaperOptions& options) {
   BitGrid<16> map_edges;
   VoxelScan largest;
   size_t compressed = 0;
-  const size_t histogram_step = std::max<size_t>(1, options.most / kHistograms);
-  forEachPaperScan(scans, options, [&](const PaperScan& scan, const PaperRecord& record) {
+  const size_t histogram_step = std::max<size_t>(1, options.recording.most / kHistograms);
+  const auto add = [&](const PaperScan& scan, const PaperRecord& record) {
     BitGrid<16> occupied;
     for (const ScanVoxel& voxel : scan.voxels.voxels) occupied.set(voxel.index);
     if (data.scans % histogram_step == 0) addRatios(occupied, data);
@@ -170,10 +154,11 @@ PaperData measureData(const ScanStream& scans, const PaperOptions& options) {
       data.compression += static_cast<double>(record.voxels) / static_cast<double>(record.edges);
       ++compressed;
     }
-    setVoxels(scan.voxels, scan.T_map_sensor, size, map);
-    setVoxels(edgeVoxels(scan.scan), scan.T_map_sensor, size, map_edges);
+    addVoxels(scan.voxels, scan.T_map_sensor, size, map);
+    addVoxels(edgeVoxels(scan.scan), scan.T_map_sensor, size, map_edges);
     if (scan.scan.voxels.size() > largest.voxels.size()) largest = scan.scan;
-  });
+  };
+  forEachPaperScan(scans, options, PaperVoxels::kAll, add);
   if (data.scans == 0) throw std::invalid_argument("the recording has no scan with a pose");
   const auto count = static_cast<double>(data.scans);
   for (double* sum : {&data.points, &data.voxels, &data.edges, &data.merged_leaves}) *sum /= count;
@@ -182,9 +167,7 @@ PaperData measureData(const ScanStream& scans, const PaperOptions& options) {
   data.map_edges = map_edges.voxelCount();
   data.map_merged_leaves = mergedLeavesOf(map);
   data.extent = size * extentOf(map).cast<double>();
-  EdgeConfig edges = options.config.edges;
-  edges.mode = EdgeMode::kPaper;
-  data.extraction = timeExtraction(largest, edges);
+  data.extraction = timeExtraction(largest, publishedEdges(options.config));
   return data;
 }
 

@@ -8,62 +8,62 @@
 #include "edgevox/map/map_builder.hpp"
 #include "edgevox/matching/matcher.hpp"
 #include "edgevox/tracking/tracker.hpp"
+#include "evaluation/octree_leaves.hpp"
+#include "evaluation/placed_scan.hpp"
+#include "tools/config_file.hpp"
 
 namespace edgevox {
 namespace {
-
-std::vector<Eigen::Vector3d> placed(const VoxelScan& scan, const Pose& T_map_sensor) {
-  std::vector<Eigen::Vector3d> centroids;
-  centroids.reserve(scan.voxels.size());
-  for (const ScanVoxel& voxel : scan.voxels) {
-    centroids.push_back(T_map_sensor * voxel.centroid.cast<double>());
-  }
-  return centroids;
-}
 
 MapBuilder builderFor(const Config& config) {
   return {config.voxel_size, config.map, config.edges, config.threads, config.voxelizer.max_range};
 }
 
+/// The preset paper, but with all points of a scan and all voxels of a map.
 Config publishedConfig(double voxel_size) {
   Config config;
+  applyConfigFile(findConfigFile("paper"), config);
   config.voxel_size = voxel_size;
-  config.edges.mode = EdgeMode::kPaper;
-  config.map.representation = Representation::kAll;
   config.map.coarsest_voxel = 32 * voxel_size;
-  config.map.min_hits = 1;
-  config.map.confirm_within = 0;
-  config.map.freeze_after = 0;
   config.map.memory = std::numeric_limits<int>::max();
-  config.matcher.mode = MatcherMode::kPublished;
   config.matcher.search_points = std::numeric_limits<int>::max();
-  config.matcher.refine_points = 50;  // are verified, which nobody asks for
   return config;
+}
+
+/// The centres of the leaves that pcl::octree has for the points, in place of the voxels.
+VoxelScan leavesOf(const VoxelScan& scan) {
+  std::vector<Eigen::Vector3f> points;
+  for (const ScanVoxel& voxel : scan.voxels) points.push_back(voxel.centroid);
+  VoxelScan leaves = scan;
+  leaves.voxel_size = 2 * scan.voxel_size;
+  leaves.voxels.clear();
+  for (const Eigen::Vector3f& centre : octreeLeafCentres(points, leaves.voxel_size)) {
+    ScanVoxel leaf;
+    leaf.index = voxelAt(centre.cast<double>(), 1.0 / leaves.voxel_size);
+    leaf.centroid = centre;
+    leaf.point_count = 1;
+    leaves.voxels.push_back(leaf);
+  }
+  return leaves;
 }
 
 /// Every pose is taken for right, as published.
 class PublishedMethod final : public PaperMethod {
  public:
-  PublishedMethod(double voxel_size, PaperVoxels voxels)
-      : config_(publishedConfig(voxel_size)),
-        voxels_(voxels),
-        matcher_(config_.matcher),
-        map_(builderFor(config_)) {}
+  explicit PublishedMethod(const Config& config)
+      : matcher_(config.matcher), map_(builderFor(config)) {}
 
   PaperPose align(const PaperScan& scan, const Pose& guess) override {
-    const VoxelScan voxels = chosenVoxels(scan, voxels_);
     MatchRequest request;
     request.guess.T_map_sensor = guess;
-    const ScanSample sample = sampleCentroids(voxels, voxels.voxels.size());
+    const ScanSample sample = sampleCentroids(scan.voxels, scan.voxels.voxels.size());
     return {matcher_.align(map_.matchMap(), sample, request).T_map_sensor, true};
   }
   void insert(const PaperScan& scan, const Pose& T_map_sensor) override {
-    map_.add(placed(chosenVoxels(scan, voxels_), T_map_sensor), T_map_sensor.translation());
+    map_.add(placedCentroids(scan.voxels, standingAt(T_map_sensor)), T_map_sensor.translation());
   }
 
  private:
-  Config config_;
-  PaperVoxels voxels_;
   Matcher matcher_;
   MapBuilder map_;
 };
@@ -79,7 +79,7 @@ class TrackerMethod final : public PaperMethod {
     return {result.T_map_sensor, result.located()};
   }
   void insert(const PaperScan& scan, const Pose& T_map_sensor) override {
-    map_.insert(placed(scan.scan, T_map_sensor), T_map_sensor.translation());
+    map_.insert(placedCentroids(scan.scan, standingAt(T_map_sensor)), T_map_sensor.translation());
   }
 
  private:
@@ -94,8 +94,20 @@ Config withRepresentation(Config config, Representation representation) {
 
 }  // namespace
 
-std::unique_ptr<PaperMethod> makePublished(double voxel_size, PaperVoxels voxels) {
-  return std::make_unique<PublishedMethod>(voxel_size, voxels);
+VoxelScan chosenVoxels(const VoxelScan& scan, PaperVoxels voxels) {
+  switch (voxels) {
+    case PaperVoxels::kAll:
+      return inMapVoxels(scan);
+    case PaperVoxels::kEdges:
+      return edgeVoxels(scan);
+    case PaperVoxels::kOctreeLeaves:
+      return leavesOf(scan);
+  }
+  return {};
+}
+
+std::unique_ptr<PaperMethod> makePublished(double voxel_size) {
+  return std::make_unique<PublishedMethod>(publishedConfig(voxel_size));
 }
 
 std::unique_ptr<PaperMethod> makeTracker(const Config& config) {
@@ -111,12 +123,12 @@ std::vector<NamedPaperMethod> paperMethods(const Config& config) {
        {std::pair("ICP on all voxels", PaperVoxels::kAll),
         std::pair("ICP on edge voxels", PaperVoxels::kEdges),
         std::pair("ICP on octree leaves", PaperVoxels::kOctreeLeaves)}) {
-    add(name, voxels, [voxels = voxels] { return makeIcp(voxels); });
+    add(name, voxels, makeIcp);
   }
   const double size = config.voxel_size;
   for (const auto& [name, voxels] : {std::pair("MROL on all voxels", PaperVoxels::kAll),
                                      std::pair("MROL on edge voxels", PaperVoxels::kEdges)}) {
-    add(name, voxels, [=, voxels = voxels] { return makePublished(size, voxels); });
+    add(name, voxels, [size] { return makePublished(size); });
   }
   for (const auto& [name, representation] : {std::pair("edgevox edges", Representation::kEdges),
                                              std::pair("edgevox sparse", Representation::kSparse),

@@ -14,10 +14,14 @@
 
 namespace edgevox {
 
+/// Which voxels of the map's size a method works on.
+enum class PaperVoxels { kAll, kEdges, kOctreeLeaves };
+VoxelScan chosenVoxels(const VoxelScan& scan, PaperVoxels voxels);
+
 /// A scan as the sensor would have seen it in the moment of its stamp, with its edges.
 struct PaperScan {
   VoxelScan scan;                        ///< in voxels of half the map's size
-  VoxelScan voxels;                      ///< the same in voxels of the map's size
+  VoxelScan voxels;                      ///< those of the map's size that a method works on
   Pose T_map_sensor = Pose::Identity();  ///< the truth
 };
 
@@ -38,25 +42,19 @@ class PaperMethod {
   virtual bool isScanToScan() const { return false; }
 };
 
-/// Which voxels of the scans a method works on.
-enum class PaperVoxels { kAll, kEdges, kOctreeLeaves };
-
 struct NamedPaperMethod {
-  std::string name;                        ///< as a text of Table
-  PaperVoxels voxels = PaperVoxels::kAll;  ///< whose map is counted
+  std::string name;  ///< as a text of Table
+  PaperVoxels voxels = PaperVoxels::kAll;
   std::function<std::unique_ptr<PaperMethod>()> make;
 };
 
-/// The voxels of a scan that a method works on, of the map's size.
-VoxelScan chosenVoxels(const PaperScan& scan, PaperVoxels voxels);
-
 /// ICP of PCL, scan to scan.
-std::unique_ptr<PaperMethod> makeIcp(PaperVoxels voxels);
+std::unique_ptr<PaperMethod> makeIcp();
 constexpr double kIcpCorrespondence = 1.0;  ///< at most [m]
 constexpr int kIcpSteps = 100;              ///< at most
 
 /// MROL as published, scan to map.
-std::unique_ptr<PaperMethod> makePublished(double voxel_size, PaperVoxels voxels);
+std::unique_ptr<PaperMethod> makePublished(double voxel_size);
 
 /// The tracker of edgevox, scan to map.
 std::unique_ptr<PaperMethod> makeTracker(const Config& config);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "edgevox/io/number_text.hpp"
@@ -28,7 +27,6 @@ double sumOf(const std::vector<PaperRecord>& scans, const Value& value) {
 }
 
 double quantileOf(const std::vector<PaperRecord>& scans, double share, const Value& value) {
-  if (scans.empty()) return std::numeric_limits<double>::quiet_NaN();
   return quantile(valuesOf(scans, value), share);
 }
 
@@ -96,7 +94,7 @@ Table summaryOf(const std::vector<PaperRow>& rows, const PaperOptions& options) 
   return table;
 }
 
-std::string count(double value) { return std::to_string(static_cast<uint64_t>(value + 0.5)); }
+std::string count(double value) { return fixedText(value, 0); }
 
 std::string dataText(const std::string& recording, const PaperData& data,
                      const PaperOptions& options) {
@@ -193,9 +191,9 @@ Table paperRatios(const PaperData& data) {
 
 std::string paperMarkdown(const std::string& recording, const PaperData& data,
                           const std::vector<PaperRow>& rows, const PaperOptions& options) {
-  return "# Edge voxel maps as published\n\nRyde, Delmerico, Corso, Generating Edge Voxel Maps "
-         "with "
-         "Structure Tensor Analysis. Configuration of edgevox: " +
+  return "# Edge voxel maps as published\n\n"
+         "Ryde, Delmerico, Corso, Generating Edge Voxel Maps with Structure Tensor Analysis. "
+         "Configuration of edgevox: " +
          options.config_name + ", voxels of " + shortText(options.config.voxel_size) +
          " m for all.\n\n" + dataText(recording, data, options) + compressionText(data) +
          extractionText(data) + "\n## Fig. 7: the methods\n\n" +
@@ -213,8 +211,7 @@ std::string paperMarkdown(const std::string& recording, const PaperData& data,
          shortText(kIcpCorrespondence) + " m, " + std::to_string(kIcpSteps) +
          " steps at most. MROL: hill climbing of all voxels of the scan in the voxel lists of the "
          "map, as published, each scan inserted where it was found. edgevox: the tracker of the "
-         "mapper without knowledge of the motion, matched by all voxels of the scan; a lost scan "
-         "is "
+         "mapper without knowledge of the motion, matched by all voxels of the scan; a lost one is "
          "not inserted.\n\n"
          "Map / true map: voxels of the union of the scans at the poses found, and at the true "
          "ones; a smeared map has more. Peak memory: of a process that runs the method alone. "

@@ -7,17 +7,15 @@
 
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <new>
-#include <optional>
 #include <system_error>
 
 #include "edgevox/edges/edge_extractor.hpp"
-#include "edgevox/grid/block_grid.hpp"
 #include "edgevox/scan/motion.hpp"
 #include "edgevox/scan/voxelizer.hpp"
+#include "edgevox/stage_timer.hpp"
 #include "evaluation/capture.hpp"
 
 namespace edgevox {
@@ -28,38 +26,6 @@ constexpr int kOutOfTime = 3;  // exit codes of the process of a method
 constexpr int kOutOfMemory = 4;
 constexpr int kFailed = 5;
 
-/// CPU time of this thread.
-double secondsNow() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-template <typename Work>
-double secondsOf(const Work& work) {
-  const double start = secondsNow();
-  work();
-  return secondsNow() - start;
-}
-
-/// A map as published: the union of the voxels of all scans.
-class UnionMap {
- public:
-  explicit UnionMap(double voxel_size) : inverse_size_(1.0 / voxel_size) {}
-
-  void add(const VoxelScan& scan, const Pose& T_map_sensor) {
-    for (const ScanVoxel& voxel : scan.voxels) {
-      const Eigen::Vector3d centroid = T_map_sensor * voxel.centroid.cast<double>();
-      if (inGridRange(centroid, 1.0 / inverse_size_)) voxels_.set(voxelAt(centroid, inverse_size_));
-    }
-  }
-  size_t count() const { return voxels_.voxelCount(); }
-
- private:
-  double inverse_size_;
-  BitGrid<16> voxels_;
-};
-
 struct OutOfTime {};
 
 /// Writes a record of each scan to `out` when it is done.
@@ -68,27 +34,32 @@ void followScans(const NamedPaperMethod& method, const ScanStream& scans,
   const std::unique_ptr<PaperMethod> aligner = method.make();
   const Disturbance disturbance = disturbedNormally(options.distance, options.angle);
   sim::Random random(options.seed);
-  UnionMap found(options.config.voxel_size);
-  UnionMap truth(options.config.voxel_size);
+  const double size = options.config.voxel_size;
+  BitGrid<16> found;
+  BitGrid<16> truth;
   double spent = 0.0;
   bool is_first = true;
-  forEachPaperScan(scans, options, [&](const PaperScan& scan, PaperRecord record) {
+  forEachPaperScan(scans, options, method.voxels, [&](const PaperScan& scan, PaperRecord record) {
     const Pose guess = disturbance.apply(scan.T_map_sensor, random);
     PaperPose pose{scan.T_map_sensor, true};
-    if (!is_first) record.align = secondsOf([&] { pose = aligner->align(scan, guess); });
+    StageTimer timer(Clock::kProcessCpu);
+    if (!is_first) pose = aligner->align(scan, guess);
+    record.align = timer.lap();
     const Pose off = scan.T_map_sensor.inverse() * pose.T_map_sensor;
     record.located = pose.located ? 1 : 0;
     record.metres = off.translation().norm();
     record.degrees = rotationAngle(off) / kDegree;
-    const Pose& at = aligner->isScanToScan() ? scan.T_map_sensor : pose.T_map_sensor;
-    if (pose.located || aligner->isScanToScan()) {
-      record.insert = secondsOf([&] { aligner->insert(scan, at); });
+    timer.lap();
+    if (aligner->isScanToScan()) {
+      aligner->insert(scan, scan.T_map_sensor);
+    } else if (pose.located) {
+      aligner->insert(scan, pose.T_map_sensor);
     }
-    const VoxelScan voxels = chosenVoxels(scan, method.voxels);
-    if (pose.located) found.add(voxels, pose.T_map_sensor);
-    truth.add(voxels, scan.T_map_sensor);
-    record.map_voxels = found.count();
-    record.true_voxels = truth.count();
+    record.insert = timer.lap();
+    if (pose.located) addVoxels(scan.voxels, pose.T_map_sensor, size, found);
+    addVoxels(scan.voxels, scan.T_map_sensor, size, truth);
+    record.map_voxels = found.voxelCount();
+    record.true_voxels = truth.voxelCount();
     if (!is_first) std::fwrite(&record, sizeof record, 1, out);
     std::fflush(out);
     is_first = false;
@@ -139,26 +110,41 @@ PaperEnd endOf(int status) {
 
 }  // namespace
 
-void forEachPaperScan(const ScanStream& scans, const PaperOptions& options,
-                      const std::function<void(const PaperScan&, PaperRecord)>& visit) {
-  EdgeConfig edges = options.config.edges;
+EdgeConfig publishedEdges(const Config& config) {
+  EdgeConfig edges = config.edges;
   edges.mode = EdgeMode::kPaper;
+  return edges;
+}
+
+void addVoxels(const VoxelScan& scan, const Pose& T_map_sensor, double voxel_size,
+               BitGrid<16>& map) {
+  for (const Eigen::Vector3d& centroid : placedCentroids(scan, standingAt(T_map_sensor))) {
+    if (inGridRange(centroid, voxel_size)) map.set(voxelAt(centroid, 1.0 / voxel_size));
+  }
+}
+
+void forEachPaperScan(const ScanStream& scans, const PaperOptions& options, PaperVoxels voxels,
+                      const std::function<void(const PaperScan&, PaperRecord)>& visit) {
   Voxelizer voxelizer(options.config.voxelizer, options.config.voxel_size);
-  EdgeExtractor extractor(edges, options.config.threads);
+  EdgeExtractor extractor(publishedEdges(options.config), options.config.threads);
   size_t number = 0;
-  scans(options.most * options.every, [&](const CloudView& cloud, const TruePose& truth) {
+  size_t taken = 0;
+  scans(scansToSee(options.recording), [&](const CloudView& cloud, const TruePose& truth) {
     PaperRecord record;
     record.scan = number++;
-    if (record.scan % options.every != 0 || !truth) return;
+    if (!isWanted(record.scan, taken, options.recording)) return;
+    ++taken;
+    if (!truth) return;
     PaperScan scan;
-    record.voxelize = secondsOf([&] { scan.scan = voxelizer.voxelize(cloud); });
-    record.extract = secondsOf([&] {
-      const EdgeCount count = extractor.extract(scan.scan);
-      record.voxels = count.occupied;
-      record.edges = count.edges;
-    });
+    StageTimer timer(Clock::kProcessCpu);
+    scan.scan = voxelizer.voxelize(cloud);
+    record.voxelize = timer.lap();
+    const EdgeCount count = extractor.extract(scan.scan);
+    record.extract = timer.lap();
+    record.voxels = count.occupied;
+    record.edges = count.edges;
     scan.scan = seenAtOnce(std::move(scan.scan), truth);
-    scan.voxels = inMapVoxels(scan.scan);
+    scan.voxels = chosenVoxels(scan.scan, voxels);
     scan.T_map_sensor = truth(0.0);
     visit(scan, record);
   });

@@ -10,20 +10,21 @@
 #include <vector>
 
 #include "edgevox/config.hpp"
+#include "edgevox/grid/block_grid.hpp"
 #include "evaluation/paper_method.hpp"
+#include "evaluation/recording.hpp"
 #include "evaluation/scan_stream.hpp"
 
 namespace edgevox {
 
 struct PaperOptions {
-  size_t most = 100;        ///< scans
-  size_t every = 1;         ///< of which every n-th is used
-  uint64_t seed = 1;        ///< of the errors of the guesses, the same for all methods
-  double distance = 0.5;    ///< standard deviation of the guesses, on each axis [m]
-  double angle = 10.0;      ///< the same [degrees]
-  double seconds = 600.0;   ///< of CPU time that a method may take for all scans
-  size_t megabytes = 8192;  ///< that a method may have in memory
-  Config config;            ///< of edgevox; its voxel size is that of all methods
+  RecordingOptions recording;  ///< which scans are used
+  uint64_t seed = 1;           ///< of the errors of the guesses, the same for all methods
+  double distance = 0.5;       ///< standard deviation of the guesses, on each axis [m]
+  double angle = 10.0;         ///< the same [degrees]
+  double seconds = 600.0;      ///< of CPU time that a method may take for all scans
+  size_t megabytes = 8192;     ///< that a method may have in memory
+  Config config;               ///< of edgevox; its voxel size is that of all methods
   std::string config_name = "the defaults";  ///< to print
 };
 
@@ -52,8 +53,15 @@ struct PaperRow {
   double megabytes = 0.0;          ///< of peak memory of a process that does nothing else
 };
 
+/// The extractor as published.
+EdgeConfig publishedEdges(const Config& config);
+
+/// Adds the voxels in which a scan at this pose lies to a map, the union of all scans.
+void addVoxels(const VoxelScan& scan, const Pose& T_map_sensor, double voxel_size,
+               BitGrid<16>& map);
+
 /// Goes through the scans of a recording that have a true pose, with their edges as published.
-void forEachPaperScan(const ScanStream& scans, const PaperOptions& options,
+void forEachPaperScan(const ScanStream& scans, const PaperOptions& options, PaperVoxels voxels,
                       const std::function<void(const PaperScan&, PaperRecord)>& visit);
 
 /// Runs a method in a process of its own, with the limits of `options`.

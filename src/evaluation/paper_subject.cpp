@@ -8,7 +8,6 @@
 #include "evaluation/scan_stream.hpp"
 #include "evaluation/subjects.hpp"
 #include "run/run_files.hpp"
-#include "tools/plot.hpp"
 
 namespace edgevox {
 namespace {
@@ -25,14 +24,8 @@ po::options_description describe() {
       "to map, on all voxels and on edge voxels, and edgevox, from guesses that are wrong by a\n"
       "random error. Writes FOLDER/paper.md, paper.csv, ratios.csv and paper.png and prints the\n"
       "first. Each method runs in a process of its own.\nOptions");
+  addRecordingOptions(known);
   auto add = known.add_options();
-  add("input", po::value<std::string>()->required(),
-      "a bag, a folder of scans with poses (3DTK, KITTI, PCD or PLY), or WORLD:SENSOR[:SEED] to "
-      "simulate, as in building:32; the first argument");
-  add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),
-      "of a bag's sensor at the clouds' stamps, TUM format");
-  add("every", po::value<int64_t>()->default_value(1), "take every N-th scan");
-  add("scans", po::value<int64_t>()->default_value(100), "take so many scans at most");
   add("seed", po::value<int64_t>()->default_value(1), "of the errors of the guesses");
   add("distance", po::value<double>()->default_value(0.5, "0.5"),
       "standard deviation of the guesses on each axis, in metres");
@@ -47,7 +40,7 @@ po::options_description describe() {
   return known;
 }
 
-double positive(const po::variables_map& given, const char* name) {
+double notNegative(const po::variables_map& given, const char* name) {
   const double value = given[name].as<double>();
   if (!(value >= 0 && value < 1e9)) {
     throw UsageError(std::string("--") + name + " must be a number from 0 on");
@@ -55,24 +48,15 @@ double positive(const po::variables_map& given, const char* name) {
   return value;
 }
 
-bool tellsVoxelSize(const po::variables_map& given) {
-  const std::vector<std::string> settings = textsOf(given, "set");
-  return !given["config"].as<std::string>().empty() ||
-         std::any_of(settings.begin(), settings.end(), [](const std::string& setting) {
-           return setting.rfind("voxel_size=", 0) == 0;
-         });
-}
-
 PaperOptions paperOptionsOf(const po::variables_map& given) {
   PaperOptions options;
-  options.config = configOf(given, options.config_name);
-  if (!tellsVoxelSize(given)) options.config.voxel_size = kVoxelSize;
-  options.most = countOf(given, "scans", 2);
-  options.every = countOf(given, "every", 1);
+  options.config.voxel_size = kVoxelSize;
+  options.config = configOf(given, options.config_name, options.config);
+  options.recording = recordingOptionsOf(given);
   options.seed = countOf(given, "seed", 0);
-  options.distance = positive(given, "distance");
-  options.angle = positive(given, "angle");
-  options.seconds = positive(given, "seconds");
+  options.distance = notNegative(given, "distance");
+  options.angle = notNegative(given, "angle");
+  options.seconds = notNegative(given, "seconds");
   options.megabytes = countOf(given, "megabytes", 64);
   return options;
 }
@@ -100,8 +84,8 @@ void evaluatePaper(const Arguments& arguments) {
   const PaperOptions options = paperOptionsOf(*given);
   const std::vector<NamedPaperMethod> methods = methodsOf(*given, options.config);
   const fs::path folder = (*given)["output"].as<std::string>();
-  const auto input = (*given)["input"].as<std::string>();
-  const ScanStream scans = streamOf(input, (*given)["poses"].as<std::string>());
+  const RecordingOptions& recording = options.recording;
+  const ScanStream scans = streamOf(recording.input, recording.poses, recording.topic);
   makeFolder(folder);
   std::vector<PaperRow> rows;
   for (const NamedPaperMethod& method : methods) {  // before there are threads, as they fork
@@ -111,7 +95,7 @@ void evaluatePaper(const Arguments& arguments) {
   const PaperData data = measureData(scans, options);
   writeFile(folder / "ratios.csv", paperRatios(data).csv());
   writeResults(folder, "paper", "plot_paper", paperScans(rows),
-               paperMarkdown(recordingName(input), data, rows, options));
+               paperMarkdown(recordingName(recording.input), data, rows, options));
 }
 
 }  // namespace edgevox

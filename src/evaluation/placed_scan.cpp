@@ -3,6 +3,10 @@
 
 namespace edgevox {
 
+TruePose standingAt(const Pose& T_map_sensor) {
+  return [T_map_sensor](double) { return T_map_sensor; };
+}
+
 std::vector<Eigen::Vector3d> placedCentroids(const VoxelScan& scan, const TruePose& truth) {
   std::vector<Eigen::Vector3d> centroids;
   centroids.reserve(scan.voxels.size());

@@ -16,6 +16,9 @@ namespace edgevox {
 /// empty if that is not known.
 using TruePose = std::function<Pose(double time_offset)>;
 
+/// Of a scan whose points are all seen from one place.
+TruePose standingAt(const Pose& T_map_sensor);
+
 /// Centroids, each at the pose of its time, in the frame of the truth [m].
 std::vector<Eigen::Vector3d> placedCentroids(const VoxelScan& scan, const TruePose& truth);
 

@@ -28,10 +28,6 @@ const char* parseNumber(const char* at, [[maybe_unused]] const char* end, double
 
 }  // namespace
 
-TruePose standingAt(const Pose& T_map_sensor) {
-  return [T_map_sensor](double) { return T_map_sensor; };
-}
-
 RecordedScan scanOf(std::vector<uint8_t> bytes, size_t point_step) {
   RecordedScan scan;
   scan.bytes = std::move(bytes);

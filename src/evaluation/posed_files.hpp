@@ -27,9 +27,6 @@ struct ScanFolder {
   std::vector<std::filesystem::path> scans;  ///< at least one, in natural order of their names
 };
 
-/// Of a scan whose points are all seen from one place.
-TruePose standingAt(const Pose& T_map_sensor);
-
 /// Points one after the other that begin with x, y and z as float32 [m], as a cloud without a pose.
 RecordedScan scanOf(std::vector<uint8_t> bytes, size_t point_step);
 

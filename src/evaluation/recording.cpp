@@ -52,13 +52,6 @@ Recording simulate(const RecordingOptions& options) {
   return recording;
 }
 
-/// How many scans are gone through to have those wanted.
-size_t scansToSee(const RecordingOptions& options) {
-  const size_t all = std::numeric_limits<size_t>::max();
-  if (options.most > (all - options.first) / options.every) return all;
-  return options.first + options.most * options.every;
-}
-
 RecordedScan copyOf(const CloudView& cloud, const Pose& T_map_sensor) {
   RecordedScan scan;
   scan.bytes.assign(cloud.data, cloud.data + cloud.row_step * cloud.height);
@@ -104,6 +97,12 @@ Pose Recording::poseAt(size_t scan, double time_offset) const {
 double endOf(const Recording& recording, size_t scan) {
   const sim::Sensor& sensor = recording.truth->sensor;
   return recording.scans[scan].view.stamp + (sensor.standing ? 0.0 : sensor.period);
+}
+
+size_t scansToSee(const RecordingOptions& options) {
+  const size_t all = std::numeric_limits<size_t>::max();
+  if (options.most > (all - options.first) / options.every) return all;
+  return options.first + options.most * options.every;
 }
 
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options) {

@@ -42,6 +42,9 @@ double endOf(const Recording& recording, size_t scan);
 /// Whether a scan is one of those to take, `taken` of which were before it.
 bool isWanted(size_t scan, size_t taken, const RecordingOptions& options);
 
+/// How many scans are gone through to have those wanted.
+size_t scansToSee(const RecordingOptions& options);
+
 /// Reads or simulates. Throws std::invalid_argument for an input or option that is wrong, BagError,
 /// FileError, TrajectoryError.
 Recording makeRecording(const RecordingOptions& options);

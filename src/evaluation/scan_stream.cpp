@@ -31,12 +31,13 @@ ScanStream simulatedStream(const std::string& input) {
   };
 }
 
-ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses) {
-  BagReader(bag, "");  // throws now, not in the middle of a long run
+ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses,
+                     const std::string& topic) {
+  BagReader(bag, topic);  // throws now, not in the middle of a long run
   const auto known =
       std::make_shared<const Trajectory>(poses.empty() ? Trajectory() : readTum(poses));
   return [=](size_t most, const VisitScan& visit) {
-    BagReader reader(bag, "");
+    BagReader reader(bag, topic);
     const Trajectory trajectory = poses.empty() ? trackedPoses(reader) : *known;
     forEachReadable(
         reader,
@@ -52,10 +53,11 @@ std::string recordingName(const std::filesystem::path& recording) {
   return (plain.has_filename() ? plain : plain.parent_path()).filename();
 }
 
-ScanStream streamOf(const std::string& input, const std::filesystem::path& poses) {
+ScanStream streamOf(const std::string& input, const std::filesystem::path& poses,
+                    const std::string& topic) {
   if (!isSimulated(input)) {
     return std::filesystem::is_directory(input) ? folderStream(input, poses)
-                                                : bagStream(input, poses);
+                                                : bagStream(input, poses, topic);
   }
   if (poses.empty()) return simulatedStream(input);
   throw std::invalid_argument("the poses of the simulated '" + input + "' are known: leave out '" +

@@ -29,13 +29,15 @@ ScanStream simulatedStream(const std::string& input);
 /// Of a bag and its sensor's trajectory, TUM format; without one, of the poses that the default
 /// configuration finds from all clouds. Throws BagError, FileError, TrajectoryError, and so does
 /// the stream.
-ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses);
+ScanStream bagStream(const std::string& bag, const std::filesystem::path& poses,
+                     const std::string& topic = "");
 
 /// What a bag or a folder is called, without the folders above it.
 std::string recordingName(const std::filesystem::path& recording);
 
 /// Of any input: a simulated world, a folder, see folderStream(), or a bag. Throws what these
 /// throw, and std::invalid_argument for poses of a simulated world, whose poses are known.
-ScanStream streamOf(const std::string& input, const std::filesystem::path& poses);
+ScanStream streamOf(const std::string& input, const std::filesystem::path& poses,
+                    const std::string& topic = "");
 
 }  // namespace edgevox

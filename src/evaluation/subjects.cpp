@@ -34,8 +34,7 @@ void addConfigOptions(po::options_description& known) {
       "name=value ..., parameters of the configuration");
 }
 
-Config configOf(const po::variables_map& given, std::string& name) {
-  Config config;
+Config configOf(const po::variables_map& given, std::string& name, Config config) {
   const auto file = given["config"].as<std::string>();
   if (!file.empty()) {
     applyConfigFile(findConfigFile(file), config);

@@ -26,10 +26,11 @@ void evaluatePaper(const Arguments& arguments);
 void addRecordingOptions(boost::program_options::options_description& known);
 RecordingOptions recordingOptionsOf(const boost::program_options::variables_map& given);
 
-/// The options for a configuration, the configuration given, valid, and its name to print. Throws
-/// ConfigError, FileError.
+/// The options for a configuration, the configuration given, valid, and its name to print;
+/// `config`: what is not given. Throws ConfigError, FileError.
 void addConfigOptions(boost::program_options::options_description& known);
-Config configOf(const boost::program_options::variables_map& given, std::string& name);
+Config configOf(const boost::program_options::variables_map& given, std::string& name,
+                Config config = {});
 
 /// Writes the table to FOLDER/NAME.csv and what is said about it to FOLDER/NAME.md, prints the
 /// latter and has the Python script draw FOLDER/NAME.png. Throws FileError.

@@ -71,8 +71,8 @@ ScanReport LocalizerNode::locate(const VoxelScanStamped& scan, const ScanTransfo
   if (!error.empty()) return reportOn(scan, noMap(error));
   if (pose) localizer_->lookNear(*pose);
   tellState();
-  const ScanResult result =
-      localizer_->process(voxelsToMatch(scan, parameters_.config), transforms.prior());
+  const ScanResult result = localizer_->process(
+      voxelsToMatch(fromMessage(scan), parameters_.config.mapper.scan_voxels), transforms.prior());
   if (result.clock_jumped) {
     log_.warn("clock_jump", "the stamps have jumped back: the velocity is forgotten");
     const std::lock_guard<std::mutex> lock(mutex_);

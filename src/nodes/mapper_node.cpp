@@ -71,7 +71,7 @@ void MapperNode::put(Mapper mapper) {
 ScanReport MapperNode::map(const VoxelScanStamped& scan, const ScanTransforms& transforms) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!map_error_.empty()) return reportOn(scan, noMap(map_error_));
-  const VoxelScan voxels = voxelsToMatch(scan, parameters_.config);
+  const VoxelScan voxels = voxelsToMatch(fromMessage(scan), parameters_.config.mapper.scan_voxels);
   if (const auto pose = io_.takePose(transforms)) mapper_.lookNear(*pose);
   ScanResult result = mapper_.track(voxels, transforms.prior());
   if (result.clock_jumped) clockJumped();

@@ -104,6 +104,7 @@ TEST(CaptureScene, ProbesOfALongRecordingAreSpread) {
   ASSERT_EQ(scene.probes.size(), 38U);  // every fourth of 150
   for (size_t i = 0; i < scene.probes.size(); ++i) {
     EXPECT_EQ(scene.probes[i].T_map_sensor.translation().x(), 8.0 * static_cast<double>(i) + 1.0);
+    EXPECT_EQ(scene.probes[i].scan.voxels.size(), 2U);
   }
   EXPECT_THROW(makeScene("many", many, 1, coarse()), std::invalid_argument);
 }

@@ -20,8 +20,8 @@ namespace {
 
 PaperOptions fewScans() {
   PaperOptions options;
-  options.most = 5;
-  options.every = 3;
+  options.recording.most = 5;
+  options.recording.every = 3;
   options.config.voxel_size = 0.1;
   return options;
 }
@@ -108,7 +108,7 @@ TEST(PaperRun, OutlivesAMethodThatFails) {
 
 TEST(PaperMethods, FindScansAndAreTheSameEveryTime) {
   PaperOptions options = fewScans();
-  options.most = 3;
+  options.recording.most = 3;
   options.distance = 0.05;
   options.angle = 1.0;
   const std::vector<NamedPaperMethod> methods = paperMethods(options.config);

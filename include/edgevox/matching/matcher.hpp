@@ -135,9 +135,6 @@ class Matcher {
   MatchResult align(const MatchMap& map, const ScanSample& sample,
                     const MatchRequest& request) const;
 
-  /// The discrete search alone, with the first `points` of the sample.
-  static Pose search(const MatchMap& map, const ScanSample& sample, size_t points,
-                     const Pose& guess);
   struct Refinement {
     Pose start = Pose::Identity();
     Prediction predicted;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "edgevox/config.hpp"
 #include "edgevox/grid/voxel.hpp"
 
 namespace edgevox {
@@ -54,5 +55,7 @@ struct VoxelScan {
 VoxelScan inMapVoxels(const VoxelScan& scan);
 /// The edges of that.
 VoxelScan edgeVoxels(const VoxelScan& scan);
+/// The voxels that mapper/scan_voxels chooses, of a scan whose edges are marked.
+VoxelScan voxelsToMatch(VoxelScan scan, ScanVoxels chosen);
 
 }  // namespace edgevox

@@ -35,7 +35,7 @@ PipelineResult Pipeline::process(const CloudView& cloud, const ScanPrior& prior)
   density_monitor_.add(scan, *result.edges);
   const double extract = timer.lap();
   result.scan_voxels = scan.voxels.size();
-  if (config_.mapper.scan_voxels == ScanVoxels::kEdges) scan = edgeVoxels(scan);
+  scan = voxelsToMatch(std::move(scan), config_.mapper.scan_voxels);
   result.scan = localizer_ ? localizer_->process(scan, prior) : mapper_.process(scan, prior);
   result.scan.times.voxelize = static_cast<float>(voxelize);
   result.scan.times.extract = static_cast<float>(extract);

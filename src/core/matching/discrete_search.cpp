@@ -12,9 +12,8 @@ namespace {
 
 constexpr double kQuarterDegree = 0.25 * M_PI / 180.0;  // [rad]
 constexpr int kCoarsestPublished = 5;                   // level
-constexpr double kDrawnDistance = 1.0;                  // [m]
-constexpr double kDrawnAngle = 25.0 * M_PI / 180.0;     // [rad]
-constexpr double kGrowth = 2.0;                         // of both, from the first drawn to the last
+constexpr double kDrawnDistance = 2.0;                  // of the last drawn, on each axis [m]
+constexpr double kDrawnAngle = 50.0 * M_PI / 180.0;     // the same [rad]
 constexpr int kDrawn = 2000;                            // poses
 constexpr size_t kDrawnPoints = 100;                    // of the sample, by which they are compared
 constexpr double kDrawnVoxel = 1.6;                     // at most, by which they are compared [m]
@@ -164,7 +163,7 @@ RestartPoses restartPoses(const MatchMap& map, const ScanSample& sample, const P
   uint64_t state = mixBits(seed + 1);
   std::vector<Drawn> drawn(kDrawn);
   for (size_t i = 0; i < drawn.size(); ++i) {
-    const double growth = kGrowth * static_cast<double>(i + 1) / kDrawn;
+    const double growth = static_cast<double>(i + 1) / kDrawn;
     drawn[i].T_map_sensor = disturbed(guess, reach * growth, state);
     drawn[i].hits = search.hits(level, drawn[i].T_map_sensor);
   }

@@ -56,8 +56,9 @@ struct RestartPoses {
   int level = 0;           ///< from which to climb, a coarser one
   uint64_t look_ups = 0;
 };
-/// Of many poses drawn around a guess, within 1 m and 25 degrees on each axis times `reach` and up
-/// to twice that, those with most hits in coarse voxels, none near a better one; `most` at most.
+/// Of many poses drawn around a guess, the first next to it, the last within 2 m and 50 degrees on
+/// each axis, times `reach`, those with most hits in coarse voxels, none near a better one; `most`
+/// at most.
 RestartPoses restartPoses(const MatchMap& map, const ScanSample& sample, const Pose& guess,
                           double reach, uint64_t seed, size_t most);
 

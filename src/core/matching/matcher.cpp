@@ -184,11 +184,12 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
   std::vector<Pose> climbed;
   std::vector<MatchResult> answers;
   if (best.accepted()) answers.push_back(best);
-  uint64_t look_ups = best.look_ups + starts.look_ups;
+  uint64_t others = best.look_ups + starts.look_ups;
+  const auto lookUps = [&] { return others + few.lookUps() + all.lookUps(); };
   int best_hits = hits(best.T_map_sensor);
   int restarts = 0;
   for (const Pose& start : starts.best) {
-    if (look_ups + few.lookUps() + all.lookUps() > kMostLookUps) break;
+    if (lookUps() > kMostLookUps) break;
     ++restarts;
     const Pose found = few.climb(start, starts.level);
     const auto isFound = [&](const Pose& other) {
@@ -201,7 +202,7 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     climbed.push_back(found);
     const Pose finer = all.climb(found, starts.level);
     const MatchResult candidate = refineFrom(map, sample, request, finer, kWidest);
-    look_ups += candidate.look_ups;
+    others += candidate.look_ups;
     if (candidate.accepted()) answers.push_back(candidate);
     if (std::pair(candidate.accepted(), candidate.hit_ratio) <=
         std::pair(best.accepted(), best.hit_ratio)) {
@@ -211,17 +212,12 @@ void Matcher::restart(const MatchMap& map, const ScanSample& sample, const Match
     best_hits = hits(best.T_map_sensor);
   }
   best.restarts = restarts;
-  best.look_ups = look_ups + few.lookUps() + all.lookUps();
+  best.look_ups = lookUps();
   const bool ambiguous = std::any_of(answers.begin(), answers.end(), [&](const MatchResult& other) {
     return other.hit_ratio > kAlike * best.hit_ratio &&
            !areOneAnswer(best.T_map_sensor, other.T_map_sensor);
   });
   if (ambiguous && best.degeneracy.directions == 0) best.refusal = Refusal::kAmbiguous;
-}
-
-Pose Matcher::search(const MatchMap& map, const ScanSample& sample, size_t points,
-                     const Pose& guess) {
-  return DiscreteSearch(map, sample, points).climb(guess);
 }
 
 MatchResult Matcher::refine(const MatchMap& map, const ScanSample& sample,

@@ -47,4 +47,8 @@ VoxelScan edgeVoxels(const VoxelScan& scan) {
   return edges;
 }
 
+VoxelScan voxelsToMatch(VoxelScan scan, ScanVoxels chosen) {
+  return chosen == ScanVoxels::kEdges ? edgeVoxels(scan) : std::move(scan);
+}
+
 }  // namespace edgevox

@@ -112,12 +112,6 @@ VoxelScan fromMessage(const VoxelScanStamped& message) {
   return scan;
 }
 
-VoxelScan voxelsToMatch(const VoxelScanStamped& message, const Config& config) {
-  const VoxelScan scan = fromMessage(message);
-  if (config.mapper.scan_voxels == ScanVoxels::kEdges) return edgeVoxels(scan);
-  return scan;
-}
-
 void addSettings(Config config, const std::vector<std::string>& prefixes,
                  VoxelScanStamped& message) {
   for (const Parameter& parameter : parametersOf(config)) {

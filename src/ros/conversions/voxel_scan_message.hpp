@@ -22,8 +22,6 @@ bool isPossible(const Voxel& voxel, double voxel_size);
 
 /// Voxels that no voxelizer makes are left out.
 VoxelScan fromMessage(const VoxelScanStamped& message);
-/// Those of the voxels that mapper/scan_voxels chooses.
-VoxelScan voxelsToMatch(const VoxelScanStamped& message, const Config& config);
 
 /// Adds the parameters whose names begin with one of `prefixes` to the message.
 void addSettings(Config config, const std::vector<std::string>& prefixes,

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/matching/discrete_search.hpp"
 #include "core/scan/scan_sample.hpp"
 #include "edgevox/map/map_builder.hpp"
 #include "edgevox/matching/free_space.hpp"
@@ -121,7 +122,7 @@ Pose refined(const Pose& guess) {
 
 Pose searchedAndRefined(const Pose& guess) {
   const MappedRoom& room = mappedRoom();
-  return refined(room.matcher().search(room.map, room.sample, room.searchPoints(), guess));
+  return refined(DiscreteSearch(room.map, room.sample, room.searchPoints()).climb(guess));
 }
 
 TEST(Refinement, RecoversAPoseNearby) {
