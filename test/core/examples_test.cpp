@@ -100,7 +100,7 @@ class ExamplesTest : public ::testing::Test {
     folder_ = std::make_unique<test::TempFolder>();
     const fs::path core = fs::path(EDGEVOX_BUILD_DIR) / "without_catkin";
     expectSuccess(configure(EDGEVOX_SOURCE_DIR, core, "-DEDGEVOX_ROS=OFF"));
-    expectSuccess(execute(EDGEVOX_CMAKE " --build " + quoted(core) + " --parallel 2"));
+    expectSuccess(execute(EDGEVOX_CMAKE " --build " + quoted(core)));
     expectSuccess(execute(EDGEVOX_CMAKE " --install " + quoted(core) + " --prefix " +
                           quoted(*folder_ / "staged")));
     fs::rename(*folder_ / "staged", *folder_ / "prefix");
