@@ -14,9 +14,9 @@ namespace po = boost::program_options;
 void addRecordingOptions(po::options_description& known) {
   auto add = known.add_options();
   add("input", po::value<std::string>()->required(),
-      "a bag, a folder of scans, or WORLD:SENSOR[:SEED] to simulate (building, street or corridor; "
-      "16, 32, 64 or scanner), as in building:32; building+movers:32 if people are to walk about "
-      "and boxes to be taken away; the first argument");
+      "a bag, a folder of scans, or WORLD:SENSOR[:SEED] to simulate (building, street, corridor or "
+      "city; 16, 32, 64, scanner or fine-scanner), as in building:32; building+movers:32 if people "
+      "are to walk about and boxes to be taken away; the first argument");
   add("topic", po::value<std::string>()->default_value("", "the only one with clouds"),
       "of a bag's clouds");
   add("poses", po::value<std::string>()->default_value("", "those that map_bag would find"),

@@ -32,7 +32,7 @@ po::options_description describe() {
       "Options");
   auto add = known.add_options();
   add("worlds", po::value<std::string>()->default_value("building,street,corridor"),
-      "to simulate: building, building+movers, street, corridor; or 'none'");
+      "to simulate: building, building+movers, street, corridor, city; or 'none'");
   add("beams", po::value<std::string>()->default_value("16,32,64"), "of the simulated lidars");
   add("seeds", po::value<std::string>()->default_value("1-9"),
       "of the simulated worlds: a list, with ranges");

@@ -22,6 +22,9 @@ Movers moveInBuilding(std::uint64_t seed);
 Solids layOutStreet(std::uint64_t seed, double length);
 Trajectory driveStreet(double length);
 
+Solids layOutCity(std::uint64_t seed);
+Trajectory driveCity();
+
 Solids layOutCorridor(std::uint64_t seed);
 Trajectory walkCorridor();
 

@@ -26,8 +26,9 @@ Sensor spinning(int rings, double lowest_degrees, double highest_degrees, int co
   return sensor;
 }
 
-Sensor terrestrial() {
-  Sensor sensor = spinning(601, -60.0, 90.0, 1440, 80.0);
+Sensor terrestrial(int rings, double lowest_degrees, double highest_degrees, int columns,
+                   double max_range) {
+  Sensor sensor = spinning(rings, lowest_degrees, highest_degrees, columns, max_range);
   sensor.noise = 0.002;
   sensor.period = 1.0;
   sensor.standing = true;
@@ -45,10 +46,12 @@ Sensor makeSensor(std::string_view name) {
   } else if (name == "64") {
     sensor = spinning(64, -24.8, 2.0, 1800, 120.0);
   } else if (name == "scanner") {
-    sensor = terrestrial();
+    sensor = terrestrial(601, -60.0, 90.0, 1440, 80.0);
+  } else if (name == "fine-scanner") {
+    sensor = terrestrial(2501, -40.0, 60.0, 9000, 600.0);
   } else {
     throw std::invalid_argument("unknown sensor '" + std::string(name) +
-                                "': 16, 32, 64 or scanner");
+                                "': 16, 32, 64, scanner or fine-scanner");
   }
   sensor.name = name;
   return sensor;

@@ -20,7 +20,9 @@ struct Sensor {
   bool standing = false;           ///< sweeps from standing stations, all time offsets 0
 };
 
-/// The sensor called "16", "32", "64" or "scanner". Throws std::invalid_argument otherwise.
+/// The sensor called "16", "32", "64", "scanner" or "fine-scanner", of which the last two stand,
+/// one ray in 0.25 degrees to 80 m or one in 0.04 degrees (22.5 million in all) to 600 m. Throws
+/// std::invalid_argument otherwise.
 Sensor makeSensor(std::string_view name);
 
 }  // namespace edgevox::sim

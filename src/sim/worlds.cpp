@@ -7,13 +7,22 @@
 #include "sim/layouts.hpp"
 
 namespace edgevox::sim {
+namespace {
+
+int stationsIn(WorldName name) {
+  if (name == WorldName::Corridor) return 8;
+  return name == WorldName::City ? 13 : 12;
+}
+
+}  // namespace
 
 WorldName parseWorldName(std::string_view name) {
   if (name == "building") return WorldName::Building;
   if (name == "street") return WorldName::Street;
   if (name == "corridor") return WorldName::Corridor;
+  if (name == "city") return WorldName::City;
   throw std::invalid_argument("unknown world '" + std::string(name) +
-                              "': building, street or corridor");
+                              "': building, street, corridor or city");
 }
 
 World makeWorld(WorldName name, std::uint64_t seed, double street_length) {
@@ -24,6 +33,8 @@ World makeWorld(WorldName name, std::uint64_t seed, double street_length) {
       return World(layOutStreet(seed, street_length));
     case WorldName::Corridor:
       return World(layOutCorridor(seed));
+    case WorldName::City:
+      return World(layOutCity(seed));
   }
   throw std::invalid_argument("unknown world");
 }
@@ -41,18 +52,20 @@ Trajectory makeTrajectory(WorldName name, double street_length) {
       return driveStreet(street_length);
     case WorldName::Corridor:
       return walkCorridor();
+    case WorldName::City:
+      return driveCity();
   }
   throw std::invalid_argument("unknown world");
 }
 
 Trajectory makeTrajectory(WorldName name, const Sensor& sensor, double street_length) {
   const Trajectory path = makeTrajectory(name, street_length);
-  const int stations = name == WorldName::Corridor ? 8 : 12;
-  return sensor.standing ? path.stations(stations, sensor.period) : path;
+  return sensor.standing ? path.stations(stationsIn(name), sensor.period) : path;
 }
 
 double sensorHeight(WorldName name) {
-  return name == WorldName::Street ? kCarSensorHeight : kHandSensorHeight;
+  const bool driven = name == WorldName::Street || name == WorldName::City;
+  return driven ? kCarSensorHeight : kHandSensorHeight;
 }
 
 }  // namespace edgevox::sim

@@ -11,16 +11,17 @@
 
 namespace edgevox::sim {
 
-enum class WorldName { Building, Street, Corridor };
+enum class WorldName { Building, Street, Corridor, City };
 
-/// "building", "street" or "corridor". Throws std::invalid_argument otherwise.
+/// "building", "street", "corridor" or "city". Throws std::invalid_argument otherwise.
 WorldName parseWorldName(std::string_view name);
 
 constexpr double kStreetLength = 520.0;  ///< m, of the loop of streets, unless it is longer
 
-/// Two storeys with stairs, a loop of streets, or a bare corridor that ends in a room. The seed
-/// moves furniture, door leaves, façades and parked cars, never the walls of rooms. The loop is
-/// `street_length` m long, at least kStreetLength; no stretch of it is like another.
+/// Two storeys with stairs, a loop of streets, a bare corridor that ends in a room, or a city of
+/// 800 x 800 m. The seed moves furniture, door leaves, façades, parked cars and parks, never the
+/// walls of rooms. The loop is `street_length` m long, at least kStreetLength; no stretch of it is
+/// like another.
 World makeWorld(WorldName name, std::uint64_t seed, double street_length = kStreetLength);
 
 /// People who walk about on the ground floor and boxes that are taken away, all at least 0.6 m from

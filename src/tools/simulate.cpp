@@ -39,6 +39,7 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 constexpr std::uint32_t kEpoch = 1700000000;  // s, the stamp of the first sweep
+constexpr std::size_t kLargeSweep = 1000000;  // rays
 constexpr const char* kWorldFrame = "world";
 constexpr const char* kSensorFrame = "lidar";
 constexpr const char* kBaseFrame = "base_link";
@@ -69,9 +70,11 @@ po::options_description describeOptions() {
       "same heading, at rest, so that their bags can be played round after round.\n\n"
       "Options");
   auto add = description.add_options();
-  add("world", po::value<std::string>()->required(), "building, street or corridor");
+  add("world", po::value<std::string>()->required(), "building, street, corridor or city");
   add("sensor", po::value<std::string>()->default_value("32"),
-      "16, 32 or 64 beams, or scanner (terrestrial, standing stations)");
+      "16, 32 or 64 beams; terrestrial on standing stations: scanner, or fine-scanner, which "
+      "sends\n"
+      "22.5 million rays from each");
   add("output,o", po::value<std::string>()->required(),
       "bag to write; the trajectory goes beside it as .tum");
   add("seed", po::value<std::int64_t>()->default_value(1), "0 or more; same seed, same bag");
@@ -258,7 +261,8 @@ volatile std::sig_atomic_t interrupted = 0;
 // Gives the trajectory in TUM format.
 std::string writeSweeps(const Run& run, std::uint64_t seed, rosbag::Bag& bag, Console& console) {
   const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  const int batch = 2 * static_cast<int>(threads);
+  const bool large = run.sensor.elevations.size() * run.sensor.columns > kLargeSweep;
+  const int batch = static_cast<int>(large ? threads : 2 * threads);
   std::string tum;
   for (int first = 0; first < run.sweeps; first += batch) {
     const int count = std::min(batch, run.sweeps - first);

@@ -184,11 +184,36 @@ TEST_F(ScannerTest, TerrestrialScannerStandsStill) {
   }
 }
 
+TEST_F(ScannerTest, CityIsSeenFrom13Stations) {
+  const World city = makeWorld(WorldName::City, 3);
+  const Aabb bounds = city.bounds();
+  EXPECT_GE(bounds.max.x() - bounds.min.x(), 800.0);
+  EXPECT_GE(bounds.max.y() - bounds.min.y(), 800.0);
+  Sensor sensor = makeSensor("fine-scanner");
+  EXPECT_EQ(sensor.elevations.size() * sensor.columns, 22509000u);
+  sensor.columns /= 100;
+  const Trajectory survey = makeTrajectory(WorldName::City, sensor);
+  ASSERT_EQ(countSweeps(survey, sensor), 13);
+  for (int station = 0; station < 13; ++station) {
+    const Eigen::Vector3d at = survey.poseAt(station * sensor.period).translation();
+    EXPECT_GT(city.clearance(at, 2.0), 1.0) << station;
+    if (station % 6 != 0) continue;
+    const Scan scan = simulateSweep(city, survey, sensor, station, 1);
+    EXPECT_GT(scan.size(), 110000u) << station;
+    double farthest = 0.0;
+    for (const Eigen::Vector3f& point : scan.points) {
+      farthest = std::max(farthest, static_cast<double>(point.norm()));
+    }
+    EXPECT_GT(farthest, 250.0) << station;
+  }
+}
+
 TEST_F(ScannerTest, EveryPlaceOfEveryPathSeesPlenty) {
   Sensor sensor = exactSensor("16");
   sensor.columns /= 10;
   const auto rays = sensor.elevations.size() * sensor.columns;
-  for (const WorldName name : {WorldName::Building, WorldName::Street, WorldName::Corridor}) {
+  for (const WorldName name :
+       {WorldName::Building, WorldName::Street, WorldName::Corridor, WorldName::City}) {
     const World world = makeWorld(name, 2);
     const Trajectory path = makeTrajectory(name);
     for (int sweep = 0; sweep < countSweeps(path, sensor); sweep += 5) {

@@ -91,7 +91,8 @@ TEST_P(PathTest, SensorFacesForward) {
 INSTANTIATE_TEST_SUITE_P(Worlds, PathTest,
                          ::testing::Values(Limits{WorldName::Building, 1.4, 4.0, 1.5},
                                            Limits{WorldName::Street, 8.2, 6.0, 0.9},
-                                           Limits{WorldName::Corridor, 1.4, 4.0, 1.5}));
+                                           Limits{WorldName::Corridor, 1.4, 4.0, 1.5},
+                                           Limits{WorldName::City, 8.2, 6.0, 0.9}));
 
 TEST(Trajectory, LoopsClose) {
   for (const WorldName name : {WorldName::Building, WorldName::Street}) {

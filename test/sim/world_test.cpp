@@ -136,7 +136,8 @@ TEST(Solid, BoundsHoldTheSolidTightly) {
 
 TEST(World, HierarchyAgreesWithAllSolids) {
   Random random(13);
-  for (const WorldName name : {WorldName::Building, WorldName::Street, WorldName::Corridor}) {
+  for (const WorldName name :
+       {WorldName::Building, WorldName::Street, WorldName::Corridor, WorldName::City}) {
     const World world = makeWorld(name, 5);
     const Aabb inner = world.bounds().inflated(-0.4);
     int hits = 0;
