@@ -1,6 +1,6 @@
 if(EDGEVOX_BUILD_BENCH)
   find_package(benchmark REQUIRED)
-  find_package(PCL REQUIRED COMPONENTS common io filters octree registration)
+  find_package(PCL REQUIRED COMPONENTS common filters io keypoints octree registration)
   file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.cpp)
   add_executable(${PROJECT_NAME}_bench ${bench_sources})
   target_include_directories(${PROJECT_NAME}_bench SYSTEM PRIVATE ${outer_include_dirs})

@@ -18,7 +18,7 @@ find_package(catkin REQUIRED COMPONENTS
 )
 find_package(Boost REQUIRED COMPONENTS program_options)
 find_package(octomap REQUIRED)
-find_package(PCL REQUIRED COMPONENTS common io octree registration)
+find_package(PCL REQUIRED COMPONENTS common io keypoints octree registration)
 find_package(yaml-cpp REQUIRED)
 
 add_message_files(FILES

@@ -49,13 +49,15 @@ target_link_libraries(${PROJECT_NAME}_tools PUBLIC
   Boost::program_options)
 target_precompile_headers(${PROJECT_NAME}_tools PRIVATE
   <algorithm> <filesystem> <functional> <iostream> <string> <boost/program_options.hpp>
-  <Eigen/Geometry> <pcl/point_cloud.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h>)
+  <Eigen/Geometry> <pcl/point_cloud.h> <rosbag/bag.h> <sensor_msgs/PointCloud2.h>
+  ${PROJECT_SOURCE_DIR}/include/edgevox/mapping/pipeline.hpp)
 
 if(EDGEVOX_BUILD_EVALUATION)
   add_library(${PROJECT_NAME}_evaluation STATIC ${EDGEVOX_EVALUATION_SOURCES})
   target_include_directories(${PROJECT_NAME}_evaluation SYSTEM PRIVATE ${outer_include_dirs})
   target_link_libraries(${PROJECT_NAME}_evaluation PUBLIC
-    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_octree pcl_registration edgevox::tbb)
+    ${PROJECT_NAME}_tools ${PROJECT_NAME}_sim pcl_keypoints pcl_octree pcl_registration
+    edgevox::tbb)
   target_precompile_headers(${PROJECT_NAME}_evaluation REUSE_FROM ${PROJECT_NAME}_tools)
   set_source_files_properties(
     src/evaluation/paper_icp.cpp src/evaluation/pcl_registration.cpp src/evaluation/pcl_search.cpp

@@ -2,6 +2,7 @@
 #include "evaluation/edge_measures.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "edgevox/ring_buffer.hpp"
 #include "edgevox/stage_timer.hpp"
 #include "evaluation/cloud_points.hpp"
+#include "evaluation/edge_detectors.hpp"
 #include "evaluation/edge_truth.hpp"
 #include "evaluation/ghosts.hpp"
 #include "evaluation/labelled_voxels.hpp"
@@ -204,6 +206,7 @@ class SizeMeasurement {
       writeSums(sums, recording_.scans.size(), table);
       writeMoved(sums.truth, table);
     }
+    if (options_.detectors) measureDetectors(table, note);
     note("edges of scans in a window");
     startRow("scan in a window", table);
     writeSums(measureWindows(), recording_.scans.size(), table);
@@ -236,6 +239,23 @@ class SizeMeasurement {
     });
     sums.truth += caused;
     return sums;
+  }
+
+  /// Each marks as many edges of a scan as the default. They are not written for speed: their time
+  /// is left out.
+  void measureDetectors(Table& table, const std::function<void(const std::string&)>& note) {
+    EdgeExtractor extractor(options_.config.edges, 1);
+    for (const EdgeDetector& detector : kEdgeDetectors) {
+      note("edges by " + std::string(detector.name));
+      startRow(detector.name, table);
+      ScanSums sums = measureEach([&](size_t i, VoxelScan scan, double&) {
+        const size_t count = extractor.extract(scan).edges;
+        markStrongest(detector, count, scan);
+        return labelledVoxels(recording_, i, scan);
+      });
+      sums.seconds = std::numeric_limits<double>::quiet_NaN();
+      writeSums(sums, recording_.scans.size(), table);
+    }
   }
 
   /// Measures in the turned grid, as no scan lies along the map's axes. Two windows that share

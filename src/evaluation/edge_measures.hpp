@@ -15,12 +15,14 @@ namespace edgevox {
 struct EdgeMeasureOptions {
   std::vector<double> voxel_sizes = {0.05, 0.1, 0.2, 0.4};  ///< of the map [m]
   size_t pair_step = 5;                                     ///< scans from the first of a pair on
+  bool detectors = false;                                   ///< measure kEdgeDetectors, too
   Config config;                                            ///< but for voxel_size and edges.mode
   std::string config_name = "the defaults";                 ///< to print
 };
 
 /// The extractors by name: as published, the default without and with its support filter, the
-/// accumulated map, and octrees for comparison. A row for each at each voxel size.
+/// accumulated map, and, for comparison, octrees and other detectors of edges. A row for each at
+/// each voxel size.
 /// `note` is told what is being measured. Throws ConfigError.
 Table measureEdges(const Recording& recording, const EdgeMeasureOptions& options,
                    const std::function<void(const std::string&)>& note);

@@ -16,6 +16,19 @@ std::string section(const Table& table, const std::string& title, const Texts& c
   return text.empty() ? "" : "\n## " + title + "\n\n" + meaning + "\n\n" + text;
 }
 
+constexpr const char* kDetectors =
+    "\nOther detectors: each marks as many voxels of a scan as the default with its support "
+    "filter, "
+    "those of the largest response to the voxels within 3 on each axis. `structure tensor`: its "
+    "middle eigenvalue as published (4 voxels). `PCA of points`: least eigenvalue of the "
+    "covariance "
+    "of the centroids over the sum of all. `difference of Gaussians`: sigmas of 1 and 1.6 voxels "
+    "on "
+    "the occupancy, how far from the median of the scan. `Haar-like`: length of the vector of "
+    "occupied voxels on one side less those on the other, along each axis. `Harris 3D`: that of "
+    "PCL, "
+    "radius 3.5 voxels.\n";
+
 std::string head(const Recording& recording, const EdgeMeasureOptions& options) {
   std::string text = "# Edges of " + recording.name + "\n\n" +
                      std::to_string(recording.scans.size()) + " scans, poses " + recording.source +
@@ -33,7 +46,8 @@ std::string head(const Recording& recording, const EdgeMeasureOptions& options) 
          std::to_string(options.config.map.min_hits) +
          ". In a simulated world floors and walls lie on the borders of its voxels, where noise "
          "spreads them over two layers; in the turned grid (25 degrees about the vertical, four "
-         "tenths of a voxel aside) they do not.\n";
+         "tenths of a voxel aside) they do not.\n" +
+         (options.detectors ? kDetectors : "");
 }
 
 constexpr const char* kCompression =

@@ -28,6 +28,8 @@ po::options_description describe() {
   add("voxel-sizes", po::value<Sizes>()->multitoken(), "of the map, m (default: 0.05 0.1 0.2 0.4)");
   add("pair-step", po::value<int64_t>()->default_value(5),
       "repeatability is between scans i and i + N of those taken");
+  add("detectors", po::bool_switch(),
+      "also by PCA of points, difference of Gaussians, Haar-like features, Harris 3D (PCL)");
   return known;
 }
 
@@ -39,6 +41,7 @@ EdgeMeasureOptions measureOptionsOf(const po::variables_map& given) {
     throw UsageError("--voxel-sizes must be 0.01 to 10 m");
   }
   options.config = configOf(given, options.config_name);
+  options.detectors = given["detectors"].as<bool>();
   options.pair_step = countOf(given, "pair-step", 1);
   return options;
 }

@@ -9,6 +9,7 @@
 
 #include "edgevox/edges/edge_extractor.hpp"
 #include "edgevox/statistics.hpp"
+#include "evaluation/edge_detectors.hpp"
 #include "support/sweeps.hpp"
 #include "table_rows.hpp"
 
@@ -165,6 +166,24 @@ TEST(SparseLidar, EdgesInAWindowAreTrueOnes) {
     EXPECT_GT(number(window, "coverage"), number(alone, "coverage") - 0.1) << world;
     EXPECT_GT(number(window, "above_chance"), number(alone, "above_chance")) << world;
   }
+}
+
+TEST_F(EdgeMeasuresTest, OtherDetectorsMarkAsManyEdges) {
+  EdgeMeasureOptions options = smallOptions();
+  options.detectors = true;
+  const Recording recording = standingStill();
+  const Table table = measureEdges(recording, options, [](const std::string&) {});
+  const auto rows = rowsByMethod(table);
+  ASSERT_EQ(rows.size(), 15U);
+  const Row& supported = rows.at("scan with support");
+  for (const EdgeDetector& detector : kEdgeDetectors) {
+    const Row& row = rows.at(detector.name);
+    EXPECT_EQ(row.at("kept"), supported.at("kept")) << detector.name;
+    EXPECT_GT(number(row, "again_edges"), 0.5) << detector.name;
+    EXPECT_GT(number(row, "coverage"), 0.0) << detector.name;
+    EXPECT_EQ(row.at("ms"), "") << detector.name;
+  }
+  EXPECT_NE(edgesMarkdown(recording, options, table).find("Harris 3D"), std::string::npos);
 }
 
 TEST_F(EdgeMeasuresTest, WithoutTruthItsColumnsStayEmpty) {
