@@ -19,7 +19,7 @@ class IcpMethod final : public PaperMethod {
     icp.setInputSource(cloudOf(scan.voxels));
     PclCloud aligned;
     icp.align(aligned, (T_map_last_.inverse() * guess).matrix().cast<float>());
-    return {T_map_last_ * poseOf(icp.getFinalTransformation()), icp.hasConverged()};
+    return {T_map_last_ * poseOf(icp.getFinalTransformation()), icp.hasConverged(), {}};
   }
   void insert(const PaperScan& scan, const Pose& T_map_sensor) override {
     last_ = cloudOf(scan.voxels);

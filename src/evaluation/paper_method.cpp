@@ -7,13 +7,15 @@
 #include "core/scan/scan_sample.hpp"
 #include "edgevox/map/map_builder.hpp"
 #include "edgevox/matching/matcher.hpp"
-#include "edgevox/tracking/tracker.hpp"
 #include "evaluation/octree_leaves.hpp"
 #include "evaluation/placed_scan.hpp"
 #include "tools/config_file.hpp"
 
 namespace edgevox {
 namespace {
+
+constexpr double kBeyondDoubt = 0.9;  // hit ratio, from which on no other place is looked at
+constexpr double kMostBlocked = 0.2;  // lines of sight
 
 MapBuilder builderFor(const Config& config) {
   return {config.voxel_size, config.map, config.edges, config.threads, config.voxelizer.max_range};
@@ -57,7 +59,7 @@ class PublishedMethod final : public PaperMethod {
     MatchRequest request;
     request.guess.T_map_sensor = guess;
     const ScanSample sample = sampleCentroids(scan.voxels, scan.voxels.voxels.size());
-    return {matcher_.align(map_.matchMap(), sample, request).T_map_sensor, true};
+    return {matcher_.align(map_.matchMap(), sample, request).T_map_sensor, true, {}};
   }
   void insert(const PaperScan& scan, const Pose& T_map_sensor) override {
     map_.add(placedCentroids(scan.voxels, standingAt(T_map_sensor)), T_map_sensor.translation());
@@ -68,22 +70,40 @@ class PublishedMethod final : public PaperMethod {
   MapBuilder map_;
 };
 
-class TrackerMethod final : public PaperMethod {
+/// The matcher of edgevox, told that the guess is poor: unless nearly all fits, it looks at other
+/// places, too. What is too young to be selected is matched to all voxels, as by the tracker.
+class EdgevoxMethod final : public PaperMethod {
  public:
-  explicit TrackerMethod(const Config& config) : tracker_(config), map_(builderFor(config)) {}
+  explicit EdgevoxMethod(const Config& config)
+      : config_(config), matcher_(config.matcher), map_(builderFor(config)) {}
 
   PaperPose align(const PaperScan& scan, const Pose& guess) override {
-    tracker_.setPose(guess);
-    const ScanResult result = tracker_.track(
-        scan.scan, {}, {map_.matchMap(), false, map_.scans(), [this] { map_.prepareAll(); }});
-    return {result.T_map_sensor, result.located()};
+    ScanSample sample;
+    for (const size_t i : sampleVoxels(scan.scan, matcher_.sampleSize())) {
+      sample.push_back(scan.scan.voxels[i].centroid.cast<double>());
+    }
+    MatchRequest request;
+    request.guess.T_map_sensor = guess;
+    request.doubtful = true;
+    request.trusted_hit_ratio = kBeyondDoubt;
+    request.required_hit_ratio = request.far_hit_ratio = config_.matcher.min_hit_ratio;
+    request.most_blocked = request.most_blocked_near = kMostBlocked;
+    request.seed = map_.scans();
+    MatchResult result = matcher_.match(map_.matchMap(), sample, request);
+    if (!result.accepted() || result.matches < config_.mapper.fallback_matches) {
+      map_.prepareAll();
+      request.all_voxels = true;
+      result = matcher_.match(map_.matchMap(), sample, request);
+    }
+    return {result.T_map_sensor, result.accepted(), result.refusal};
   }
   void insert(const PaperScan& scan, const Pose& T_map_sensor) override {
     map_.insert(placedCentroids(scan.scan, standingAt(T_map_sensor)), T_map_sensor.translation());
   }
 
  private:
-  Tracker tracker_;
+  Config config_;
+  Matcher matcher_;
   MapBuilder map_;
 };
 
@@ -110,8 +130,8 @@ std::unique_ptr<PaperMethod> makePublished(double voxel_size) {
   return std::make_unique<PublishedMethod>(publishedConfig(voxel_size));
 }
 
-std::unique_ptr<PaperMethod> makeTracker(const Config& config) {
-  return std::make_unique<TrackerMethod>(config);
+std::unique_ptr<PaperMethod> makeEdgevox(const Config& config) {
+  return std::make_unique<EdgevoxMethod>(config);
 }
 
 std::vector<NamedPaperMethod> paperMethods(const Config& config) {
@@ -134,7 +154,7 @@ std::vector<NamedPaperMethod> paperMethods(const Config& config) {
                                              std::pair("edgevox sparse", Representation::kSparse),
                                              std::pair("edgevox all", Representation::kAll)}) {
     const Config with = withRepresentation(config, representation);
-    add(name, PaperVoxels::kAll, [with] { return makeTracker(with); });
+    add(name, PaperVoxels::kAll, [with] { return makeEdgevox(with); });
   }
   return methods;
 }

@@ -10,6 +10,7 @@
 
 #include "edgevox/config.hpp"
 #include "edgevox/grid/voxel.hpp"
+#include "edgevox/matching/matcher.hpp"
 #include "edgevox/scan/voxel_scan.hpp"
 
 namespace edgevox {
@@ -28,6 +29,7 @@ struct PaperScan {
 struct PaperPose {
   Pose T_map_sensor = Pose::Identity();
   bool located = false;
+  Refusal refusal = Refusal::kNone;  ///< why it is not
 };
 
 /// Aligns one scan after another, each from a guess.
@@ -56,8 +58,8 @@ constexpr int kIcpSteps = 100;              ///< at most
 /// MROL as published, scan to map.
 std::unique_ptr<PaperMethod> makePublished(double voxel_size);
 
-/// The tracker of edgevox, scan to map.
-std::unique_ptr<PaperMethod> makeTracker(const Config& config);
+/// The matcher of edgevox, scan to map.
+std::unique_ptr<PaperMethod> makeEdgevox(const Config& config);
 
 /// All of them, with the configuration `config` for edgevox.
 std::vector<NamedPaperMethod> paperMethods(const Config& config);

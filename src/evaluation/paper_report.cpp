@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 
 #include "edgevox/io/number_text.hpp"
@@ -48,11 +49,42 @@ std::string endText(const PaperRow& row, const PaperOptions& options) {
   return "";
 }
 
+const char* wordsFor(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kTooFar:
+      return "far from the guess";
+    case Refusal::kFewHits:
+      return "few points fit";
+    case Refusal::kDisagrees:
+      return "disagrees";
+    case Refusal::kBlocked:
+      return "through walls";
+    case Refusal::kAmbiguous:
+      return "ambiguous";
+    default:
+      return "other";
+  }
+}
+
+/// Of the lost scans, as "few points fit 3; through walls 1".
+std::string lostText(const std::vector<PaperRecord>& scans) {
+  std::map<std::string, size_t> counts;
+  for (const PaperRecord& scan : scans) {
+    if (scan.located == 0 && scan.refusal != Refusal::kNone) ++counts[wordsFor(scan.refusal)];
+  }
+  std::string text;
+  for (const auto& [words, count] : counts) {
+    text += (text.empty() ? "" : "; ") + words + " " + std::to_string(count);
+  }
+  return text;
+}
+
 Table summaryOf(const std::vector<PaperRow>& rows, const PaperOptions& options) {
   Table table({{"method", "method"},
                {"scans", "scans", 0},
                {"right", "right %", 1},
                {"lost", "lost", 0},
+               {"why", "why"},
                {"cm", "position median [cm]", 1},
                {"cm90", "90 % [cm]", 1},
                {"degrees", "rotation median [degrees]", 2},
@@ -74,6 +106,7 @@ Table summaryOf(const std::vector<PaperRow>& rows, const PaperOptions& options) 
         static_cast<size_t>(std::count_if(row.scans.begin(), row.scans.end(), isRight));
     table.set("right", 1e2 * shareOf(right, row.scans.size()));
     table.set("lost", static_cast<double>(row.scans.size() - located.size()));
+    table.set("why", lostText(row.scans));
     const Value cm = [](const PaperRecord& scan) { return 1e2 * scan.metres; };
     const Value degrees = [](const PaperRecord& scan) { return scan.degrees; };
     table.set("cm", quantileOf(located, 0.5, cm));
@@ -198,9 +231,10 @@ std::string paperMarkdown(const std::string& recording, const PaperData& data,
          " m for all.\n\n" + dataText(recording, data, options) + compressionText(data) +
          extractionText(data) + "\n## Fig. 7: the methods\n\n" +
          summaryOf(rows, options)
-             .markdown({"method", "scans", "right", "lost", "cm", "cm90", "degrees", "degrees90",
-                        "align", "total_align", "total_insert", "map", "megabytes", "end"},
-                       1) +
+             .markdown(
+                 {"method", "scans", "right", "lost", "why", "cm", "cm90", "degrees", "degrees90",
+                  "align", "total_align", "total_insert", "map", "megabytes", "end"},
+                 1) +
          "\nEach scan is aligned from its true pose, moved by a normal error of " +
          shortText(options.distance) + " m and " + shortText(options.angle) +
          " degrees on each axis, the same for all methods (seed " + std::to_string(options.seed) +
@@ -210,9 +244,9 @@ std::string paperMarkdown(const std::string& recording, const PaperData& data,
          "ICP: of PCL, from scan to scan, the last scan at its true pose; correspondences up to " +
          shortText(kIcpCorrespondence) + " m, " + std::to_string(kIcpSteps) +
          " steps at most. MROL: hill climbing of all voxels of the scan in the voxel lists of the "
-         "map, as published, each scan inserted where it was found. edgevox: the tracker of the "
-         "mapper without knowledge of the motion, matched by all voxels of the scan; a lost one is "
-         "not inserted.\n\n"
+         "map, as published, each scan inserted where it was found. edgevox: its matcher, "
+         "which is told that the guess is poor, by all voxels of the scan; a lost one is not "
+         "inserted.\n\n"
          "Map / true map: voxels of the union of the scans at the poses found, and at the true "
          "ones; a smeared map has more. Peak memory: of a process that runs the method alone. "
          "Extraction as published; least of several wall times.\n";

@@ -41,12 +41,13 @@ void followScans(const NamedPaperMethod& method, const ScanStream& scans,
   bool is_first = true;
   forEachPaperScan(scans, options, method.voxels, [&](const PaperScan& scan, PaperRecord record) {
     const Pose guess = disturbance.apply(scan.T_map_sensor, random);
-    PaperPose pose{scan.T_map_sensor, true};
+    PaperPose pose{scan.T_map_sensor, true, {}};
     StageTimer timer(Clock::kProcessCpu);
     if (!is_first) pose = aligner->align(scan, guess);
     record.align = timer.lap();
     const Pose off = scan.T_map_sensor.inverse() * pose.T_map_sensor;
     record.located = pose.located ? 1 : 0;
+    record.refusal = pose.refusal;
     record.metres = off.translation().norm();
     record.degrees = rotationAngle(off) / kDegree;
     timer.lap();

@@ -34,9 +34,10 @@ struct PaperRecord {
   uint64_t voxels = 0;
   uint64_t edges = 0;
   uint64_t located = 0;
-  double metres = 0.0;    ///< of the pose from the truth
-  double degrees = 0.0;   ///< the same
-  double voxelize = 0.0;  ///< CPU time, as the next three [s]
+  Refusal refusal = Refusal::kNone;  ///< why it is not
+  double metres = 0.0;               ///< of the pose from the truth
+  double degrees = 0.0;              ///< the same
+  double voxelize = 0.0;             ///< CPU time, as the next three [s]
   double extract = 0.0;
   double align = 0.0;
   double insert = 0.0;
