@@ -190,6 +190,15 @@ TEST_F(Launch, badCloudsChangeNothing) {
   expectSameFiles(folder_ / "out", offline_.output);
 }
 
+/// The mapper takes the edges of the edge extractor, not the voxels of the voxelizer.
+TEST_F(Launch, mapsEdgesAsPublished) {
+  writeBag(goodClouds(), {});
+  offline_.config = "paper";
+  launchToTheEnd({"bag:=run.bag", "output:=out", "exit_at_end:=true", "config:=paper"});
+  expectSameAsOffline();
+  EXPECT_EQ(readTum(folder_ / "out/trajectory.tum").size(), goodClouds().size());
+}
+
 TEST_F(Launch, mapsWhatRosbagPlays) {
   writeBag(goodClouds(), {true, false, false});
   offline_.frames.base = "base_link";
