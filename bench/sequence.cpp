@@ -59,7 +59,7 @@ std::vector<Cloud> simulate(const Source& source) {
 Cloud cloudOf(const sensor_msgs::PointCloud2& message) {
   Cloud cloud;
   cloud.bytes = message.data;
-  const auto reading = readCloud(message);
+  const auto reading = readCloud(message, VoxelizerConfig());
   if (const auto* error = std::get_if<CloudError>(&reading)) throw std::runtime_error(error->text);
   cloud.view = std::get<CheckedCloud>(reading).view;
   cloud.view.data = cloud.bytes.data();

@@ -28,11 +28,18 @@ enum class MatcherMode {
 
 enum class InstructionSet { kAuto, kPortable, kAvx2 };
 
+enum class TimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds, kNone };
+
+/// Which point of a sweep its stamp is of.
+enum class StampAt { kAuto, kFirst, kLast };
+
 struct VoxelizerConfig {
   double min_range = 0.5;    ///< [m]
   double max_range = 120.0;  ///< [m]
   int max_points = 5000000;  ///< of a cloud that is read
   int max_voxels = 300000;   ///< of a scan
+  TimeUnit time_unit = TimeUnit::kAuto;  ///< of the times of points in clouds
+  StampAt stamp_at = StampAt::kAuto;
 };
 
 /// What is an edge in occupancy of a certain density.

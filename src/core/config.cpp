@@ -34,6 +34,14 @@ std::vector<Parameter> parametersOf(Config& c) {
        "a cloud of more points is refused: bounds the memory"},
       {"voxelizer/max_voxels", &c.voxelizer.max_voxels, 50, kMaxLarge, "",
        "a scan of more voxels is refused: bounds the memory"},
+      {"voxelizer/time_unit",
+       choiceOf(c.voxelizer.time_unit, {"auto", "s", "ms", "us", "ns", "none"}), 0, 0, "",
+       "of the points' times; 'auto' finds the one in which a sweep takes up to 2 s, 'none' "
+       "ignores "
+       "them"},
+      {"voxelizer/stamp_at", choiceOf(c.voxelizer.stamp_at, {"auto", "first", "last"}), 0, 0, "",
+       "point of a sweep whose time its stamp is; 'auto' takes the times as they are, or, if they "
+       "are of another clock, 'first'"},
       {"edges/mode", choiceOf(c.edges.mode, {"default", "paper"}), 0, 0, "",
        "'paper' is the extractor exactly as published; no other parameter of edges applies to it"},
       {"edges/magnitude", &c.edges.magnitude, 0.001, 1, "",

@@ -13,7 +13,7 @@ void forEachReadable(BagReader& bag, const VisitCloud& visit, size_t most) {
     if (index >= most) return;
     const BagCloud cloud = read();
     if (!cloud.message) return;
-    const CloudReading reading = readCloud(*cloud.message);
+    const CloudReading reading = readCloud(*cloud.message, VoxelizerConfig());
     const auto* checked = std::get_if<CheckedCloud>(&reading);
     if (checked != nullptr) visit(index, *cloud.message, checked->view);
   });

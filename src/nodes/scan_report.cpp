@@ -90,7 +90,7 @@ PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& 
   all.points = scan.points_read;
   all.scan_voxels = scan.voxels.size();
   all.dropped = {scan.points_not_finite, scan.points_too_near, scan.points_too_far,
-                 scan.point_times_ignored};
+                 scan.points_bad_time};
   all.scan.times.voxelize = scan.voxelize_seconds;
   if (scan.occupied_voxels == 0) return all;  // it has not been by the edge extractor
   all.edges = {scan.occupied_voxels, scan.edge_voxels, scan.sparse_voxels};

@@ -24,7 +24,7 @@ VoxelizerNode::VoxelizerNode(const ros::NodeHandle& handle, const ros::NodeHandl
 }
 
 void VoxelizerNode::process(const Input::Arrival& arrival) {
-  const CloudReading reading = readCloud(*arrival.message);
+  const CloudReading reading = readCloud(*arrival.message, parameters_.config.voxelizer);
   if (const auto* error = std::get_if<CloudError>(&reading)) return refuse(arrival, *error);
   const auto& cloud = std::get<CheckedCloud>(reading);
   if (!cloud.note.empty()) log_.warn("note", cloud.note);
@@ -79,7 +79,7 @@ void VoxelizerNode::diagnose(DiagnosticStatus& status) {
   status.add("points not finite", state_.dropped_points.not_finite);
   status.add("points too near", state_.dropped_points.too_near);
   status.add("points too far", state_.dropped_points.too_far);
-  status.add("point times ignored", state_.dropped_points.bad_time);
+  status.add("points with a wrong time", state_.dropped_points.bad_time);
   addTimes("voxelize", state_.times, status);
 }
 

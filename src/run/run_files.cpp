@@ -88,7 +88,7 @@ void addPoints(const RunRecord& run, Report& report) {
   report.add("points_dropped", dropped);
   report.add("sparse_share", sparseShareOf(run.scans));
   report.add("time_field", run.time_field.empty() ? "none" : run.time_field);
-  report.add("point_times_ignored", run.dropped_points.bad_time);
+  report.add("points_bad_time", run.dropped_points.bad_time);
 }
 
 void addTimes(const Pool<ScanRecord>& scans, Report& report) {

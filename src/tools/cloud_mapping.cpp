@@ -6,11 +6,11 @@
 namespace edgevox {
 
 CloudMapping::CloudMapping(const Config& config, const SensorFrames& frames, Console& console)
-    : transformer_(frames), console_(console), pipeline_(config) {}
+    : config_(config.voxelizer), transformer_(frames), console_(console), pipeline_(config) {}
 
 void CloudMapping::add(size_t index, const BagCloud& cloud) {
   if (!cloud.message) return leaveOut(index, cloud.reason, cloud.text);
-  const CloudReading reading = readCloud(*cloud.message);
+  const CloudReading reading = readCloud(*cloud.message, config_);
   if (const auto* error = std::get_if<CloudError>(&reading)) {
     return leaveOut(index, toString(error->fault), error->text);
   }

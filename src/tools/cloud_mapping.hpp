@@ -36,6 +36,7 @@ class CloudMapping {
   void noteBegunAnew(size_t cloud, const ScanResult& scan);
   void printNote(const std::string& note);
 
+  VoxelizerConfig config_;
   ScanTransformer transformer_;
   Console& console_;
   Pipeline pipeline_;

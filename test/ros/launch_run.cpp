@@ -38,7 +38,7 @@ void expectSameRun(const std::filesystem::path& online, const std::filesystem::p
   for (const char* name :
        {"scans", "tracked", "fallback", "lost", "stale", "too_few_voxels", "without_odometry",
         "odometry_jumps", "clock_jumps", "begun_anew", "degenerate", "edge_voxels",
-        "occupied_voxels", "points", "time_field", "point_times_ignored"}) {
+        "occupied_voxels", "points", "time_field", "points_bad_time"}) {
     EXPECT_EQ(ours[name].as<std::string>("none"), expected[name].as<std::string>("no such entry"))
         << name;
   }

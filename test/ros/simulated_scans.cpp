@@ -10,7 +10,7 @@
 namespace edgevox::test {
 
 CloudView viewOf(const sensor_msgs::PointCloud2& cloud) {
-  return std::get<CheckedCloud>(readCloud(cloud)).view;
+  return std::get<CheckedCloud>(readCloud(cloud, VoxelizerConfig())).view;
 }
 
 sensor_msgs::PointCloud2 stamped(sensor_msgs::PointCloud2 cloud, const ros::Time& stamp) {

@@ -48,7 +48,7 @@ class VoxelizerTest : public NodeletTest {
     EXPECT_EQ(scan.dropped.not_finite, message.points_not_finite);
     EXPECT_EQ(scan.dropped.too_near, message.points_too_near);
     EXPECT_EQ(scan.dropped.too_far, message.points_too_far);
-    EXPECT_EQ(scan.dropped.bad_time, message.point_times_ignored);
+    EXPECT_EQ(scan.dropped.bad_time, message.points_bad_time);
   }
 
   Config config_;
@@ -135,7 +135,12 @@ std::vector<BadCloud> badClouds() {
       {CloudFault::kPointStep,
        {"does not fit in point_step", "offsets"},
        [](Cloud& c) { c.fields[2].offset = 14; }},
-      {CloudFault::kRowStep, {"row_step", "correct the driver"}, [](Cloud& c) { c.row_step /= 2; }},
+      {CloudFault::kRowStep,
+       {"row_step", "correct the driver"},
+       [](Cloud& c) {
+         c.height = 2;
+         c.row_step /= 2;
+       }},
       {CloudFault::kDataSize, {"cut short"}, [](Cloud& c) { c.data.resize(c.data.size() - 1); }},
   };
 }

@@ -19,7 +19,7 @@ TEST(MapCloud, isReadBackByOurOwnReader) {
   const std::vector<Eigen::Vector3f> points = {{1, 2, 3}, {-4, 5.5F, 1e-3F}};
   const sensor_msgs::PointCloud2 cloud = toCloud(points, header());
   EXPECT_EQ("map", cloud.header.frame_id);
-  const CloudReading reading = readCloud(cloud);
+  const CloudReading reading = readCloud(cloud, VoxelizerConfig());
   ASSERT_TRUE(std::holds_alternative<CheckedCloud>(reading));
   const CloudView& view = std::get<CheckedCloud>(reading).view;
   ASSERT_EQ(2U, view.width);

@@ -26,9 +26,9 @@ struct DroppedPoints {
   uint64_t not_finite = 0;
   uint64_t too_near = 0;
   uint64_t too_far = 0;
-  uint64_t bad_time = 0;  ///< the point is used with the time of the point before it
+  uint64_t bad_time = 0;  ///< too far from the stamp
 
-  uint64_t total() const { return not_finite + too_near + too_far; }
+  uint64_t total() const { return not_finite + too_near + too_far + bad_time; }
   DroppedPoints& operator+=(const DroppedPoints& other) {
     not_finite += other.not_finite;
     too_near += other.too_near;

@@ -16,14 +16,15 @@ namespace edgevox {
 
 enum class Scalar { kFloat32, kFloat64, kUint32 };
 
-/// Where a point keeps its time; seconds = value * unit, counted from the cloud's stamp, or from
-/// the epoch if `absolute`.
+constexpr double kLongestTimeOffset = 2.0;  ///< of a point from the stamp [s]
+
+/// Where a point keeps its time: (value - start) * unit seconds after the cloud's stamp.
 struct TimeField {
   bool present = false;
   size_t offset = 0;
   Scalar type = Scalar::kFloat32;
   double unit = 1.0;
-  bool absolute = false;
+  double start = 0.0;
 };
 
 /// A cloud as it lies in memory, in host byte order; does not own `data`. The maker guarantees
@@ -50,7 +51,8 @@ CloudView viewOf(const std::vector<Eigen::Vector3f>& points, double stamp, std::
 /// Turns clouds into occupied voxels of half the map's voxel size. Voxels of a block follow one
 /// another, blocks in order of their first point, voxels likewise, so that all later stages walk
 /// through memory. Keeps its memory from cloud to cloud. Points that are not finite, out of
-/// range or kIndexLimit voxels away are dropped and counted. A cloud of more points or voxels than
+/// range or kIndexLimit voxels away, or whose times are not within kLongestTimeOffset of the stamp,
+/// are dropped and counted. A cloud of more points or voxels than
 /// the configuration allows is given up, see VoxelScan::too_large.
 class Voxelizer {
  public:

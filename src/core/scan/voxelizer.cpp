@@ -10,8 +10,6 @@
 namespace edgevox {
 namespace {
 
-constexpr double kLongestSweep = 2.0;  // [s]; a time further from the stamp is a wrong unit
-
 // Pairs: numbers of two points.
 typedef double Double2 __attribute__((vector_size(16)));
 typedef float Float4 __attribute__((vector_size(16)));
@@ -55,18 +53,18 @@ template <typename Time>
 class TimeReader {
  public:
   explicit TimeReader(const CloudView& cloud)
-      : offset_(cloud.time.offset), unit_{cloud.time.unit, cloud.time.unit} {
-    if (cloud.time.absolute) start_ = Double2{cloud.stamp, cloud.stamp};
-  }
+      : offset_(cloud.time.offset),
+        unit_{cloud.time.unit, cloud.time.unit},
+        start_{cloud.time.start, cloud.time.start} {}
 
   Double2 read(const uint8_t* first, const uint8_t* second) const {
-    return loadPair<Time>(first + offset_, second + offset_) * unit_ - start_;
+    return (loadPair<Time>(first + offset_, second + offset_) - start_) * unit_;
   }
 
  private:
   size_t offset_;
   Double2 unit_;
-  Double2 start_{};
+  Double2 start_;
 };
 
 template <>
@@ -77,7 +75,7 @@ class TimeReader<NoTime> {
 };
 
 inline Long2 isGoodTime(const Double2& time) {
-  constexpr Double2 kLongest = {kLongestSweep, kLongestSweep};
+  constexpr Double2 kLongest = {kLongestTimeOffset, kLongestTimeOffset};
   return (time >= -kLongest) & (time <= kLongest);
 }
 
@@ -230,7 +228,6 @@ class Voxelizer::Reader {
     if (both(inRange(at) & isGoodTime(time))) {
       const Float2 rounded = __builtin_convertvector(time, Float2);
       out_.add(at, rounded, 2);
-      time_ = rounded[1];
     } else {
       readOne(first);
       readOne(second);
@@ -244,10 +241,11 @@ class Voxelizer::Reader {
       return;
     }
     const Double2 time = times_.read(point, point);
-    const bool good = both(isGoodTime(time));
-    time_ = good ? static_cast<float>(time[0]) : time_;
-    dropped_.bad_time += good ? 0 : 1;
-    out_.add(at, Float2{time_, time_}, 1);
+    if (!both(isGoodTime(time))) {
+      ++dropped_.bad_time;
+      return;
+    }
+    out_.add(at, __builtin_convertvector(time, Float2), 1);
   }
 
   Voxelizer& to_;
@@ -257,7 +255,6 @@ class Voxelizer::Reader {
   DroppedPoints& dropped_;
   Double2 near_;
   Double2 far_;
-  float time_ = 0.0F;  // of the last point
 };
 
 Voxelizer::Voxelizer(const VoxelizerConfig& config, double map_voxel_size)

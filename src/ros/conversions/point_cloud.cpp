@@ -2,12 +2,10 @@
 #include "ros/conversions/point_cloud.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <cstring>
 #include <optional>
 
+#include "ros/conversions/field_names.hpp"
+#include "ros/conversions/point_times.hpp"
 #include "ros/conversions/stamp.hpp"
 
 namespace edgevox {
@@ -15,10 +13,6 @@ namespace {
 
 using Cloud = sensor_msgs::PointCloud2;
 using Field = sensor_msgs::PointField;
-
-// Float64 times are told apart by their size: 1e8 s after the epoch is 1973, 1e17 ns as well.
-constexpr double kLeastEpochSeconds = 1e8;
-constexpr double kLeastEpochNanoseconds = 1e17;
 
 size_t sizeOf(uint8_t datatype) {
   switch (datatype) {
@@ -37,12 +31,6 @@ size_t sizeOf(uint8_t datatype) {
     default:
       return 0;
   }
-}
-
-std::string typeName(uint8_t datatype) {
-  constexpr std::array<const char*, 9> kNames = {"none",  "int8",   "uint8",   "int16",  "uint16",
-                                                 "int32", "uint32", "float32", "float64"};
-  return datatype < kNames.size() ? kNames[datatype] : "unknown type " + std::to_string(datatype);
 }
 
 std::string fieldNames(const Cloud& cloud) {
@@ -121,6 +109,19 @@ bool insidePoint(const Field& field, const Cloud& cloud) {
   return uint64_t{field.offset} + sizeOf(field.datatype) <= cloud.point_step;
 }
 
+/// Bytes of the points of a row.
+uint64_t rowOf(const Cloud& cloud) { return uint64_t{cloud.width} * cloud.point_step; }
+
+/// Without bytes between or behind the rows, whatever row_step says: drivers leave it at 0, or set
+/// it to the size of all rows.
+bool isPacked(const Cloud& cloud) {
+  return cloud.data.size() % cloud.height == 0 && cloud.data.size() / cloud.height == rowOf(cloud);
+}
+
+uint64_t rowStepOf(const Cloud& cloud) {
+  return isPacked(cloud) || cloud.height == 1 ? rowOf(cloud) : cloud.row_step;
+}
+
 Check checkLayout(const Cloud& cloud) {
   for (const Field& field : cloud.fields) {
     if (insidePoint(field, cloud)) continue;
@@ -130,19 +131,19 @@ Check checkLayout(const Cloud& cloud) {
                           std::to_string(cloud.point_step) + where(cloud) +
                           "correct the driver's offsets or point_step"};
   }
-  const uint64_t row = uint64_t{cloud.width} * cloud.point_step;
-  if (cloud.row_step < row) {
-    return CloudError{CloudFault::kRowStep, "row_step " + std::to_string(cloud.row_step) +
-                                                " is less than the " + std::to_string(row) +
-                                                " bytes of width * point_step" + where(cloud) +
-                                                "correct the driver's row_step"};
+  if (isPacked(cloud)) return std::nullopt;
+  if (cloud.height > 1 && cloud.row_step < rowOf(cloud)) {
+    return CloudError{CloudFault::kRowStep,
+                      "row_step " + std::to_string(cloud.row_step) + " is less than the " +
+                          std::to_string(rowOf(cloud)) + " bytes of width * point_step" +
+                          where(cloud) + "correct the driver's row_step"};
   }
-  const uint64_t bytes = uint64_t{cloud.row_step} * cloud.height;
+  const uint64_t bytes = rowStepOf(cloud) * cloud.height;
   if (bytes > cloud.data.size()) {
     return CloudError{CloudFault::kDataSize,
-                      "row_step * height is " + std::to_string(bytes) + " bytes, the data hold " +
+                      "its rows are " + std::to_string(bytes) + " bytes, the data hold " +
                           std::to_string(cloud.data.size()) + where(cloud) +
-                          "the message is cut short or its row_step or height is wrong"};
+                          "the message is cut short, or its width, row_step or height is wrong"};
   }
   return std::nullopt;
 }
@@ -152,73 +153,7 @@ const Field& fieldNamed(const Cloud& cloud, const char* name) {
                        [&](const Field& field) { return field.name == name; });
 }
 
-std::string lowerWithoutUnderscores(const std::string& name) {
-  std::string plain;
-  for (const char c : name) {
-    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return plain;
-}
-
-bool isTimeName(const std::string& name) {
-  constexpr std::array<const char*, 5> kNames = {"time", "t", "timestamp", "offsettime",
-                                                 "timeoffset"};
-  return std::find(kNames.begin(), kNames.end(), lowerWithoutUnderscores(name)) != kNames.end();
-}
-
-/// The first time that is finite and not 0; points without a return often have 0.
-double typicalTime(const Cloud& cloud, size_t offset) {
-  for (size_t row = 0; row < cloud.height; ++row) {
-    const uint8_t* at = cloud.data.data() + row * cloud.row_step + offset;
-    for (size_t i = 0; i < cloud.width; ++i, at += cloud.point_step) {
-      double time;
-      std::memcpy(&time, at, sizeof(time));
-      if (std::isfinite(time) && time != 0.0) return time;
-    }
-  }
-  return 0.0;
-}
-
-std::optional<TimeField> timeFieldOf(const Cloud& cloud, const Field& field) {
-  TimeField time;
-  time.present = true;
-  time.offset = field.offset;
-  switch (field.datatype) {
-    case Field::FLOAT32:
-      time.type = Scalar::kFloat32;
-      return time;
-    case Field::UINT32:
-      time.type = Scalar::kUint32;
-      time.unit = 1e-9;
-      return time;
-    case Field::FLOAT64: {
-      const double typical = std::abs(typicalTime(cloud, field.offset));
-      time.type = Scalar::kFloat64;
-      time.unit = typical >= kLeastEpochNanoseconds ? 1e-9 : 1.0;
-      time.absolute = typical >= kLeastEpochSeconds;
-      return time;
-    }
-    default:
-      return std::nullopt;
-  }
-}
-
-void setTime(const Cloud& cloud, CheckedCloud& checked) {
-  for (const Field& field : cloud.fields) {
-    if (!isTimeName(field.name)) continue;
-    if (const auto time = timeFieldOf(cloud, field)) {
-      checked.view.time = *time;
-      checked.time_field = field.name;
-      checked.note.clear();
-      return;
-    }
-    checked.note = "the points' times are not used: field '" + field.name + "' is " +
-                   typeName(field.datatype) +
-                   "; known are float32 [s], uint32 [ns] and float64 [s or ns]";
-  }
-}
-
-CheckedCloud viewOf(const Cloud& cloud) {
+CheckedCloud viewOf(const Cloud& cloud, const VoxelizerConfig& config) {
   CheckedCloud checked;
   CloudView& view = checked.view;
   view.stamp = cloud.header.stamp.toSec();
@@ -227,12 +162,15 @@ CheckedCloud viewOf(const Cloud& cloud) {
   view.width = cloud.width;
   view.height = cloud.height;
   view.point_step = cloud.point_step;
-  view.row_step = cloud.row_step;
+  view.row_step = rowStepOf(cloud);
   view.xyz_offset = {fieldNamed(cloud, "x").offset, fieldNamed(cloud, "y").offset,
                      fieldNamed(cloud, "z").offset};
   const bool wide = fieldNamed(cloud, "x").datatype == Field::FLOAT64;
   view.xyz_type = wide ? Scalar::kFloat64 : Scalar::kFloat32;
-  setTime(cloud, checked);
+  PointTimes times = pointTimesOf(cloud, view, config);
+  view.time = times.field;
+  checked.time_field = std::move(times.name);
+  checked.note = std::move(times.note);
   return checked;
 }
 
@@ -264,11 +202,11 @@ const char* toString(CloudFault fault) {
   return "";
 }
 
-CloudReading readCloud(const sensor_msgs::PointCloud2& cloud) {
+CloudReading readCloud(const sensor_msgs::PointCloud2& cloud, const VoxelizerConfig& config) {
   for (const auto check : {checkStamp, checkShape, checkCoordinates, checkLayout}) {
     if (Check error = check(cloud)) return *error;
   }
-  return viewOf(cloud);
+  return viewOf(cloud, config);
 }
 
 }  // namespace edgevox

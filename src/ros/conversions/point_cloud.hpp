@@ -32,17 +32,14 @@ struct CloudError {
 
 struct CheckedCloud {
   CloudView view;          ///< valid as long as the message
-  std::string time_field;  ///< empty if the points have no times
-  std::string note;        ///< a time field that is not understood; else empty
+  std::string time_field;  ///< empty if no times of points are used
+  std::string note;        ///< see PointTimes
 };
 
 using CloudReading = std::variant<CheckedCloud, CloudError>;
 
-/// A view of a message after a check of its stamp and layout; the points themselves are not looked
-/// at. The time of a point is read from a field `time`, `t`, `timestamp`, `time_stamp`,
-/// `offset_time` or `time_offset` (any case): float32 in seconds and uint32 in nanoseconds count
-/// from the cloud's stamp; float64 is the time since the epoch in seconds or nanoseconds, or, if it
-/// is small, seconds from the stamp.
-CloudReading readCloud(const sensor_msgs::PointCloud2& cloud);
+/// A view of a message after a check of its stamp and layout; of the points themselves only some
+/// times are looked at: see pointTimesOf().
+CloudReading readCloud(const sensor_msgs::PointCloud2& cloud, const VoxelizerConfig& config);
 
 }  // namespace edgevox

@@ -91,7 +91,7 @@ VoxelScanStamped toMessage(const VoxelScan& scan, const std_msgs::Header& header
   message.points_not_finite = scan.dropped.not_finite;
   message.points_too_near = scan.dropped.too_near;
   message.points_too_far = scan.dropped.too_far;
-  message.point_times_ignored = scan.dropped.bad_time;
+  message.points_bad_time = scan.dropped.bad_time;
   return message;
 }
 
@@ -108,7 +108,7 @@ VoxelScan fromMessage(const VoxelScanStamped& message) {
   }
   scan.points_read = message.points_read;
   scan.dropped = {message.points_not_finite, message.points_too_near, message.points_too_far,
-                  message.point_times_ignored};
+                  message.points_bad_time};
   return scan;
 }
 
