@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/paper_method.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,8 +16,12 @@
 namespace edgevox {
 namespace {
 
-constexpr double kBeyondDoubt = 0.9;  // hit ratio, from which on no other place is looked at
-constexpr double kMostBlocked = 0.2;  // lines of sight
+constexpr double kBeyondDoubt = 0.9;     // hit ratio, from which on no other place is looked at
+constexpr double kMostBlocked = 0.2;     // lines of sight
+constexpr double kFarthest = 6.0;        // from the guess, of the deviation on one axis
+constexpr double kLeastDistance = 0.01;  // of the guess [m]
+constexpr double kLeastAngle = 0.1;      // of the guess [degrees]
+constexpr double kDegree = M_PI / 180.0;
 
 MapBuilder builderFor(const Config& config) {
   return {config.voxel_size, config.map, config.edges, config.threads, config.voxelizer.max_range};
@@ -70,12 +76,23 @@ class PublishedMethod final : public PaperMethod {
   MapBuilder map_;
 };
 
-/// The matcher of edgevox, told that the guess is poor: unless nearly all fits, it looks at other
+Matrix6 covarianceOf(const GuessError& error) {
+  const double angle = error.angle * kDegree;
+  Vector6 variances;
+  variances << Eigen::Vector3d::Constant(error.distance * error.distance),
+      Eigen::Vector3d::Constant(angle * angle);
+  return variances.asDiagonal();
+}
+
+/// The matcher of edgevox, told how poor the guess is: unless nearly all fits, it looks at other
 /// places, too. What is too young to be selected is matched to all voxels, as by the tracker.
 class EdgevoxMethod final : public PaperMethod {
  public:
-  explicit EdgevoxMethod(const Config& config)
-      : config_(config), matcher_(config.matcher), map_(builderFor(config)) {}
+  EdgevoxMethod(const Config& config, const GuessError& error)
+      : config_(config),
+        error_{std::max(error.distance, kLeastDistance), std::max(error.angle, kLeastAngle)},
+        matcher_(config.matcher),
+        map_(builderFor(config)) {}
 
   PaperPose align(const PaperScan& scan, const Pose& guess) override {
     ScanSample sample;
@@ -83,7 +100,9 @@ class EdgevoxMethod final : public PaperMethod {
       sample.push_back(scan.scan.voxels[i].centroid.cast<double>());
     }
     MatchRequest request;
-    request.guess.T_map_sensor = guess;
+    request.guess = Prediction::withCovariance(guess, covarianceOf(error_), false);
+    request.max_translation = kFarthest * error_.distance;
+    request.max_rotation = kFarthest * error_.angle * kDegree;
     request.doubtful = true;
     request.trusted_hit_ratio = kBeyondDoubt;
     request.required_hit_ratio = request.far_hit_ratio = config_.matcher.min_hit_ratio;
@@ -103,6 +122,7 @@ class EdgevoxMethod final : public PaperMethod {
 
  private:
   Config config_;
+  GuessError error_;
   Matcher matcher_;
   MapBuilder map_;
 };
@@ -130,11 +150,11 @@ std::unique_ptr<PaperMethod> makePublished(double voxel_size) {
   return std::make_unique<PublishedMethod>(publishedConfig(voxel_size));
 }
 
-std::unique_ptr<PaperMethod> makeEdgevox(const Config& config) {
-  return std::make_unique<EdgevoxMethod>(config);
+std::unique_ptr<PaperMethod> makeEdgevox(const Config& config, const GuessError& error) {
+  return std::make_unique<EdgevoxMethod>(config, error);
 }
 
-std::vector<NamedPaperMethod> paperMethods(const Config& config) {
+std::vector<NamedPaperMethod> paperMethods(const Config& config, const GuessError& error) {
   std::vector<NamedPaperMethod> methods;
   const auto add = [&](const char* name, PaperVoxels voxels, auto make) {
     methods.push_back({name, voxels, std::move(make)});
@@ -154,7 +174,7 @@ std::vector<NamedPaperMethod> paperMethods(const Config& config) {
                                              std::pair("edgevox sparse", Representation::kSparse),
                                              std::pair("edgevox all", Representation::kAll)}) {
     const Config with = withRepresentation(config, representation);
-    add(name, PaperVoxels::kAll, [with] { return makeEdgevox(with); });
+    add(name, PaperVoxels::kAll, [with, error] { return makeEdgevox(with, error); });
   }
   return methods;
 }

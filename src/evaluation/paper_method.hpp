@@ -58,10 +58,16 @@ constexpr int kIcpSteps = 100;              ///< at most
 /// MROL as published, scan to map.
 std::unique_ptr<PaperMethod> makePublished(double voxel_size);
 
-/// The matcher of edgevox, scan to map.
-std::unique_ptr<PaperMethod> makeEdgevox(const Config& config);
+/// Standard deviations of the guesses on each axis.
+struct GuessError {
+  double distance = 0.5;  ///< [m]
+  double angle = 10.0;    ///< [degrees]
+};
 
-/// All of them, with the configuration `config` for edgevox.
-std::vector<NamedPaperMethod> paperMethods(const Config& config);
+/// The matcher of edgevox, scan to map.
+std::unique_ptr<PaperMethod> makeEdgevox(const Config& config, const GuessError& error);
+
+/// All of them; the configuration and the error of the guesses are told to edgevox.
+std::vector<NamedPaperMethod> paperMethods(const Config& config, const GuessError& error);
 
 }  // namespace edgevox

@@ -236,7 +236,7 @@ std::string paperMarkdown(const std::string& recording, const PaperData& data,
                   "align", "total_align", "total_insert", "map", "megabytes", "end"},
                  1) +
          "\nEach scan is aligned from its true pose, moved by a normal error of " +
-         shortText(options.distance) + " m and " + shortText(options.angle) +
+         shortText(options.error.distance) + " m and " + shortText(options.error.angle) +
          " degrees on each axis, the same for all methods (seed " + std::to_string(options.seed) +
          "). Scans are deskewed by the true motion. Right: within " + shortText(kFoundDistance) +
          " m and " + shortText(kFoundAngle) +
@@ -245,7 +245,7 @@ std::string paperMarkdown(const std::string& recording, const PaperData& data,
          shortText(kIcpCorrespondence) + " m, " + std::to_string(kIcpSteps) +
          " steps at most. MROL: hill climbing of all voxels of the scan in the voxel lists of the "
          "map, as published, each scan inserted where it was found. edgevox: its matcher, "
-         "which is told that the guess is poor, by all voxels of the scan; a lost one is not "
+         "which is told these deviations, by all voxels of the scan; a lost one is not "
          "inserted.\n\n"
          "Map / true map: voxels of the union of the scans at the poses found, and at the true "
          "ones; a smeared map has more. Peak memory: of a process that runs the method alone. "

@@ -10,6 +10,8 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "edgevox/edges/edge_extractor.hpp"
@@ -32,7 +34,7 @@ struct OutOfTime {};
 void followScans(const NamedPaperMethod& method, const ScanStream& scans,
                  const PaperOptions& options, std::FILE* out) {
   const std::unique_ptr<PaperMethod> aligner = method.make();
-  const Disturbance disturbance = disturbedNormally(options.distance, options.angle);
+  const Disturbance disturbance = disturbedNormally(options.error.distance, options.error.angle);
   sim::Random random(options.seed);
   const double size = options.config.voxel_size;
   BitGrid<16> found;
@@ -140,6 +142,10 @@ void forEachPaperScan(const ScanStream& scans, const PaperOptions& options, Pape
     StageTimer timer(Clock::kProcessCpu);
     scan.scan = voxelizer.voxelize(cloud);
     record.voxelize = timer.lap();
+    if (!scan.scan.too_large.empty()) {
+      throw std::invalid_argument("scan " + std::to_string(record.scan) +
+                                  " is not used: " + scan.scan.too_large);
+    }
     const EdgeCount count = extractor.extract(scan.scan);
     record.extract = timer.lap();
     record.voxels = count.occupied;

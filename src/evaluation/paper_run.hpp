@@ -20,11 +20,10 @@ namespace edgevox {
 struct PaperOptions {
   RecordingOptions recording;  ///< which scans are used
   uint64_t seed = 1;           ///< of the errors of the guesses, the same for all methods
-  double distance = 0.5;       ///< standard deviation of the guesses, on each axis [m]
-  double angle = 10.0;         ///< the same [degrees]
-  double seconds = 600.0;      ///< of CPU time that a method may take for all scans
-  size_t megabytes = 8192;     ///< that a method may have in memory
-  Config config;               ///< of edgevox; its voxel size is that of all methods
+  GuessError error;
+  double seconds = 600.0;                    ///< of CPU time that a method may take for all scans
+  size_t megabytes = 8192;                   ///< that a method may have in memory
+  Config config;                             ///< of edgevox; its voxel size is that of all methods
   std::string config_name = "the defaults";  ///< to print
 };
 

@@ -54,15 +54,16 @@ PaperOptions paperOptionsOf(const po::variables_map& given) {
   options.config = configOf(given, options.config_name, options.config);
   options.recording = recordingOptionsOf(given);
   options.seed = countOf(given, "seed", 0);
-  options.distance = notNegative(given, "distance");
-  options.angle = notNegative(given, "angle");
+  options.error.distance = notNegative(given, "distance");
+  options.error.angle = notNegative(given, "angle");
   options.seconds = notNegative(given, "seconds");
   options.megabytes = countOf(given, "megabytes", 64);
   return options;
 }
 
-std::vector<NamedPaperMethod> methodsOf(const po::variables_map& given, const Config& config) {
-  std::vector<NamedPaperMethod> methods = paperMethods(config);
+std::vector<NamedPaperMethod> methodsOf(const po::variables_map& given,
+                                        const PaperOptions& options) {
+  std::vector<NamedPaperMethod> methods = paperMethods(options.config, options.error);
   const std::vector<std::string> wanted = textsOf(given, "methods");
   if (wanted.empty()) return methods;
   const auto isWanted = [&](const NamedPaperMethod& method) {
@@ -82,7 +83,7 @@ void evaluatePaper(const Arguments& arguments) {
   const auto given = parseOptions(arguments, describe(), "input");
   if (!given) return;
   const PaperOptions options = paperOptionsOf(*given);
-  const std::vector<NamedPaperMethod> methods = methodsOf(*given, options.config);
+  const std::vector<NamedPaperMethod> methods = methodsOf(*given, options);
   const fs::path folder = (*given)["output"].as<std::string>();
   const RecordingOptions& recording = options.recording;
   const ScanStream scans = streamOf(recording.input, recording.poses, recording.topic);

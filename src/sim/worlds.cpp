@@ -9,9 +9,19 @@
 namespace edgevox::sim {
 namespace {
 
+/// So many that each sees a part of what the one before has seen.
 int stationsIn(WorldName name) {
-  if (name == WorldName::Corridor) return 8;
-  return name == WorldName::City ? 13 : 12;
+  switch (name) {
+    case WorldName::Building:
+      return 36;
+    case WorldName::Street:
+      return 12;
+    case WorldName::Corridor:
+      return 8;
+    case WorldName::City:
+      return 13;
+  }
+  return 0;
 }
 
 }  // namespace

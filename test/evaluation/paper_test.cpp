@@ -109,9 +109,9 @@ TEST(PaperRun, OutlivesAMethodThatFails) {
 TEST(PaperMethods, FindScansAndAreTheSameEveryTime) {
   PaperOptions options = fewScans();
   options.recording.most = 3;
-  options.distance = 0.05;
-  options.angle = 1.0;
-  const std::vector<NamedPaperMethod> methods = paperMethods(options.config);
+  options.error.distance = 0.05;
+  options.error.angle = 1.0;
+  const std::vector<NamedPaperMethod> methods = paperMethods(options.config, options.error);
   ASSERT_EQ(8U, methods.size());
   for (const NamedPaperMethod& method : methods) {
     const PaperRow row = runPaperMethod(method, building(), options);

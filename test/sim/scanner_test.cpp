@@ -175,7 +175,7 @@ TEST_F(ScannerTest, TerrestrialScannerStandsStill) {
   Sensor sensor = exactSensor("scanner");
   sensor.columns /= 8;
   const Trajectory survey = makeTrajectory(WorldName::Building, sensor);
-  ASSERT_EQ(countSweeps(survey, sensor), 12);
+  ASSERT_EQ(countSweeps(survey, sensor), 36);
   const Scan scan = simulateSweep(world_, survey, sensor, 5, 1);
   EXPECT_GT(scan.size(), 90000u);
   for (const float time : scan.times) ASSERT_EQ(time, 0.0f);
