@@ -34,10 +34,10 @@ enum class TimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanosecond
 enum class StampAt { kAuto, kFirst, kLast };
 
 struct VoxelizerConfig {
-  double min_range = 0.5;    ///< [m]
-  double max_range = 120.0;  ///< [m]
-  int max_points = 5000000;  ///< of a cloud that is read
-  int max_voxels = 300000;   ///< of a scan
+  double min_range = 0.5;                ///< [m]
+  double max_range = 120.0;              ///< [m]
+  int max_points = 5000000;              ///< of a cloud that is read
+  int max_voxels = 300000;               ///< of a scan
   TimeUnit time_unit = TimeUnit::kAuto;  ///< of the times of points in clouds
   StampAt stamp_at = StampAt::kAuto;
 };

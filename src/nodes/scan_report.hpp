@@ -15,10 +15,6 @@ namespace edgevox {
 
 StageTimes timesOf(const ScanReport& report);
 
-/// Why a scan has no pose and what to do about it; empty if it has one. `way_out`: what helps a
-/// sensor that is lost for good.
-std::string adviceOn(const ScanResult& result, const std::string& way_out);
-
 /// What the offline pipeline would have given for the scan, as far as it is known.
 PipelineResult toPipelineResult(const VoxelScanStamped& scan, const ScanResult& result);
 

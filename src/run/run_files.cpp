@@ -217,6 +217,10 @@ void makeFolder(const fs::path& folder) {
 
 Report writeRun(const fs::path& folder, const RunResults& results) {
   const MapBuilder* map = results.mapper == nullptr ? nullptr : &results.mapper->map();
+  if (map != nullptr ? map->empty() : results.run.located() == 0) {
+    throw FileError(std::string(map != nullptr ? "the map is empty" : "no scan was located") +
+                    ": nothing is saved, and what is in '" + folder.string() + "' stays as it is");
+  }
   const double peak_rss_mb = peakMegabytes();
   const MapFiles maps = mapFilesOf(results);
   const Report summary =

@@ -46,7 +46,8 @@ struct RunResults {
 };
 
 /// Makes the folder if need be and puts the files of the run, all together, in the place of those
-/// of an earlier one. Gives the summary; throws FileError.
+/// of an earlier one. Gives the summary; throws FileError, also where there is neither a map nor a
+/// pose.
 Report writeRun(const std::filesystem::path& folder, const RunResults& results);
 
 }  // namespace edgevox

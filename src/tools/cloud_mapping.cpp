@@ -2,8 +2,15 @@
 #include "tools/cloud_mapping.hpp"
 
 #include "edgevox/stage_timer.hpp"
+#include "run/scan_advice.hpp"
 
 namespace edgevox {
+namespace {
+
+constexpr const char* kWayOut =
+    "use all clouds (--stride 1), an odometry (--odom-frame), or a larger voxel_size";
+
+}  // namespace
 
 CloudMapping::CloudMapping(const Config& config, const SensorFrames& frames, Console& console)
     : config_(config.voxelizer), transformer_(frames), console_(console), pipeline_(config) {}
@@ -39,6 +46,7 @@ void CloudMapping::process(size_t cloud, const CheckedCloud& checked,
   }
   noteOdometryJump(cloud, result.scan);
   noteBegunAnew(cloud, result.scan);
+  noteNotLocated(cloud, result.scan);
   run_.add(cloud, result, transforms.T_base_sensor, timer.lap());
 }
 
@@ -58,6 +66,20 @@ void CloudMapping::noteBegunAnew(size_t cloud, const ScanResult& scan) {
   if (!scan.begun_anew || run_.begun_anew > 0) return;
   console_.print("cloud " + std::to_string(cloud) + ": " + begunAnewText() +
                  " More of this kind are counted only.");
+}
+
+void CloudMapping::noteNotLocated(size_t cloud, const ScanResult& scan) {
+  if (scan.located()) return;
+  const auto [advice, is_first] =
+      advice_.try_emplace(scan.status, edgevox::adviceOn(scan, kWayOut));
+  if (!is_first) return;
+  console_.print("cloud " + std::to_string(cloud) + " is " + toString(scan.status) + ": " +
+                 advice->second + ". More of this kind are counted only.");
+}
+
+std::string CloudMapping::adviceOn(ScanStatus status) const {
+  const auto found = advice_.find(status);
+  return found == advice_.end() ? "" : found->second;
 }
 
 void CloudMapping::printNote(const std::string& note) {

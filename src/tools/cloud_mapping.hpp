@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 
 #include "edgevox/mapping/pipeline.hpp"
@@ -25,6 +26,8 @@ class CloudMapping {
 
   const Config& config() const { return pipeline_.config(); }
   const RunRecord& run() const { return run_; }
+  /// The first advice on scans that became this; empty if there is none.
+  std::string adviceOn(ScanStatus status) const;
   const MapBuilder& map() const { return pipeline_.map(); }
   const DensityMonitor& densityMonitor() const { return pipeline_.densityMonitor(); }
 
@@ -34,6 +37,7 @@ class CloudMapping {
   void noteMissingOdometry(size_t cloud, const std::string& error);
   void noteOdometryJump(size_t cloud, const ScanResult& scan);
   void noteBegunAnew(size_t cloud, const ScanResult& scan);
+  void noteNotLocated(size_t cloud, const ScanResult& scan);
   void printNote(const std::string& note);
 
   VoxelizerConfig config_;
@@ -42,6 +46,7 @@ class CloudMapping {
   Pipeline pipeline_;
   RunRecord run_;
   std::string printed_note_;
+  std::map<ScanStatus, std::string> advice_;
 };
 
 }  // namespace edgevox

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps the clouds of a bag without a ROS master. Exit codes: 1 no results, 2 wrong usage or
-// configuration, 3 results of a part of the bag, as the rest could not be read.
+// configuration, 3 results that lack something, as a part of the bag or the reference could not be
+// used, 4 results of less than half of the clouds, as the others were not located.
 #include <unistd.h>
 
 #include <iostream>
@@ -16,9 +17,11 @@ int mapBag(const edgevox::Arguments& arguments) {
   edgevox::Console console(std::cerr, isatty(STDERR_FILENO) != 0);
   const edgevox::MapBagOutcome outcome = edgevox::runMapBag(*options, console);
   std::cout << outcome.summary.table();
-  if (outcome.loss.empty()) return 0;
-  std::cerr << "map_bag: " << outcome.loss << "\n";
-  return 3;
+  for (const std::string& text : {outcome.warning, outcome.loss}) {
+    if (!text.empty()) std::cerr << "map_bag: " << text << "\n";
+  }
+  if (!outcome.loss.empty()) return 3;
+  return outcome.warning.empty() ? 0 : 4;
 }
 
 }  // namespace

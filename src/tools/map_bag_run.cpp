@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/map_bag_run.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string>
 
 #include "edgevox/io/atomic_file.hpp"
 #include "edgevox/io/trajectory_evaluation.hpp"
@@ -15,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr ScanStatus kNotLocated[] = {ScanStatus::kLost, ScanStatus::kAmbiguous, ScanStatus::kStale,
+                                      ScanStatus::kTooFew, ScanStatus::kTooLarge};
 constexpr double kTransformCache = 30.0 * 24 * 3600;  // [s], longer than any bag
 
 /// Fails now and not after the mapping.
@@ -38,15 +43,22 @@ void readTransforms(BagReader& bag, CheckedTransforms& transforms, Console& cons
   }
 }
 
+std::string countsOf(const CloudMapping& mapping) {
+  std::string counts;
+  const auto add = [&](const std::string& reason, size_t count) {
+    if (count > 0) counts += (counts.empty() ? "" : ", ") + reason + " " + std::to_string(count);
+  };
+  for (const auto& [reason, count] : mapping.run().left_out) add(reason, count);
+  for (const ScanStatus status : kNotLocated) add(toString(status), mapping.run().count(status));
+  return counts;
+}
+
 void requireScans(const BagReader& bag, const CloudMapping& mapping) {
-  if (mapping.run().scans.size() > 0) return;
-  std::string reasons;
-  for (const auto& [reason, count] : mapping.run().left_out) {
-    reasons += (reasons.empty() ? "" : ", ") + reason + " " + std::to_string(count);
-  }
+  if (mapping.run().located() > 0) return;
+  const std::string counts = countsOf(mapping);
   throw BagError("none of the " + std::to_string(bag.cloudCount()) + " clouds on topic '" +
                  bag.topic() + "' could be used (" +
-                 (reasons.empty() ? "see --skip and --stride" : reasons) + ")");
+                 (counts.empty() ? "see --skip and --stride" : counts) + ")");
 }
 
 void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
@@ -61,17 +73,27 @@ void mapClouds(BagReader& bag, const MapBagOptions& options, Console& console,
   if (mapping.map().isFull()) console.print(fullText(mapping.config().map));
 }
 
-/// The results are kept even if the reference is of no use.
-Report writeResults(const MapBagOptions& options, const std::optional<Trajectory>& reference,
-                    RunResults results) {
-  results.occupied_too = options.write_occupied;
+/// Of the clouds that were used, if half of them or more were not located.
+std::string warningOf(const CloudMapping& mapping) {
+  const RunRecord& run = mapping.run();
+  if (2 * run.located() > run.scans.size()) return "";
+  const auto* commonest =
+      std::max_element(std::begin(kNotLocated), std::end(kNotLocated),
+                       [&](ScanStatus a, ScanStatus b) { return run.count(a) < run.count(b); });
+  return "only " + std::to_string(run.located()) + " of " + std::to_string(run.scans.size()) +
+         " clouds were located (" + countsOf(mapping) + "); of the first that is " +
+         toString(*commonest) + ": " + mapping.adviceOn(*commonest);
+}
+
+/// Why there are no errors; empty if there are.
+std::string evaluateRun(const MapBagOptions& options, const Trajectory& reference,
+                        RunResults& results) {
   try {
-    if (reference) results.errors = evaluate(results.run.trajectory(), *reference);
-  } catch (const TrajectoryError&) {
-    writeRun(options.output, results);
-    throw;
+    results.errors = evaluate(results.run.trajectory(), reference);
+    return "";
+  } catch (const TrajectoryError& error) {
+    return "the results in '" + options.output.string() + "' are without errors: " + error.what();
   }
-  return writeRun(options.output, results);
 }
 
 std::string lossOf(const BagReader& bag, const MapBagOptions& options) {
@@ -113,8 +135,14 @@ MapBagOutcome runMapBag(const MapBagOptions& options, Console& console) {
   RunResults results{config, mapping.run()};
   if (options.localize.empty()) results.mapper = &mapping.pipeline().mapper();
   results.content = options.full ? MapContent::kFull : MapContent::kCompact;
-  const Report summary = writeResults(options, reference, results);
-  return {summary, lossOf(bag, options)};
+  results.occupied_too = options.write_occupied;
+  std::string loss = lossOf(bag, options);
+  if (reference) {
+    const std::string without = evaluateRun(options, *reference, results);
+    loss += (loss.empty() || without.empty() ? "" : "; ") + without;
+  }
+  const Report summary = writeRun(options.output, results);
+  return {summary, loss, warningOf(mapping)};
 }
 
 }  // namespace edgevox

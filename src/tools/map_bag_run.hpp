@@ -11,11 +11,13 @@ namespace edgevox {
 
 struct MapBagOutcome {
   Report summary;
-  std::string loss;  ///< what of the bag could not be read, in words; empty: nothing
+  std::string loss;     ///< what the results lack of what was asked for, in words; empty: nothing
+  std::string warning;  ///< that most of the clouds were not mapped, and why; empty: they were
 };
 
 /// Maps what can be read of a bag and writes the results to options.output. Throws ConfigError,
-/// BagError, FileError or TrajectoryError; then the results of an earlier run stay.
+/// BagError, FileError, or TrajectoryError if the reference cannot be read; then the results of an
+/// earlier run stay.
 MapBagOutcome runMapBag(const MapBagOptions& options, Console& console);
 
 }  // namespace edgevox

@@ -96,6 +96,14 @@ TEST_F(MapBagTest, outputThatCannotBeWritten) {
   expectError<FileError>({options_.output.string(), "another output folder"});
 }
 
+std::map<std::string, std::string> contentsOf(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    contents[entry.path().filename().string()] = test::contentOf(entry.path());
+  }
+  return contents;
+}
+
 TEST_F(MapBagTest, badReference) {
   writeBag(simulatedRun().clouds);
   options_.reference = (folder_ / "none.tum").string();
@@ -103,16 +111,36 @@ TEST_F(MapBagTest, badReference) {
   std::ofstream(folder_ / "none.tum") << "1 2 3\n";
   expectError<TrajectoryError>({"none.tum, line 1"});
   std::ofstream(folder_ / "none.tum") << "1 0 0 0 0 0 0 1\n";
-  expectError<TrajectoryError>({"only 0 of 12 poses"});
+  EXPECT_EQ(run()["tracked"].as<int>(), 12);
+  EXPECT_NE(loss_.find("without errors: only 0 of 12 poses"), std::string::npos) << loss_;
   EXPECT_TRUE(fs::exists(options_.output / "trajectory.tum"));
 }
 
-std::map<std::string, std::string> contentsOf(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    contents[entry.path().filename().string()] = test::contentOf(entry.path());
+/// Of 20 points each.
+TEST_F(MapBagTest, aRunWithoutAPoseLeavesTheMapOfTheOneBefore) {
+  writeBag(simulatedRun().clouds);
+  run();
+  const auto before = contentsOf(options_.output);
+  std::vector<sensor_msgs::PointCloud2> clouds = simulatedRun().clouds;
+  for (sensor_msgs::PointCloud2& cloud : clouds) {
+    cloud.width = 20;
+    cloud.row_step = cloud.width * cloud.point_step;
+    cloud.data.resize(cloud.row_step);
   }
-  return contents;
+  writeBag(clouds);
+  expectError<BagError>({"none of the 12 clouds", "too_few 12"});
+  EXPECT_EQ(contentsOf(options_.output), before);
+}
+
+TEST_F(MapBagTest, mostlyStaleCloudsAreToldWithAdvice) {
+  std::vector<sensor_msgs::PointCloud2> clouds = simulatedRun().clouds;
+  for (sensor_msgs::PointCloud2& cloud : clouds) cloud.header.stamp.nsec = 0;
+  writeBag(clouds);
+  const int located = run()["tracked"].as<int>();
+  EXPECT_LE(located, 2);
+  EXPECT_TRUE(logged("is stale: ")) << log_.str();
+  EXPECT_NE(warning_.find("stamps stand still"), std::string::npos) << warning_;
+  EXPECT_NE(warning_.find("of 12 clouds were located"), std::string::npos) << warning_;
 }
 
 TEST_F(MapBagTest, aRunThatFailsLeavesTheResultsOfTheOneBefore) {

@@ -42,6 +42,7 @@ YAML::Node MapBagTest::run(const MapBagOptions& options) {
   Console console(log_, false);
   const MapBagOutcome outcome = runMapBag(options, console);
   loss_ = outcome.loss;
+  warning_ = outcome.warning;
   EXPECT_EQ(contentOf(options.output / "summary.json"), outcome.summary.json());
   return YAML::Load(outcome.summary.json());
 }

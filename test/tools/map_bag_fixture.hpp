@@ -49,7 +49,8 @@ class MapBagTest : public ::testing::Test {
   TempFolder folder_;
   MapBagOptions options_;
   std::ostringstream log_;
-  std::string loss_;  ///< of the last run
+  std::string loss_;     ///< of the last run
+  std::string warning_;  ///< the same
 
  private:
   static void expectWords(const std::vector<std::string>& words, const std::string& text);

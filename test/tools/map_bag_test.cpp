@@ -154,7 +154,7 @@ TEST_F(MapBagTest, badCloudsAreCountedAndLeftOut) {
   EXPECT_EQ(summary["clouds_left_out"]["data_size"].as<int>(), 2);
   EXPECT_EQ(summary["clouds_left_out"]["empty"].as<int>(), 1);
   EXPECT_TRUE(logged("cloud 2 is left out: there is no field 'x'"));
-  EXPECT_TRUE(logged("cloud 4 is left out: row_step * height is"));
+  EXPECT_TRUE(logged("cloud 4 is left out: its rows are"));
   EXPECT_FALSE(logged("cloud 5"));
   EXPECT_EQ(linesOf(options_.output / "trajectory.tum"), size_t{kSweeps} - 5);
 }
