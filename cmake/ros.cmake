@@ -93,6 +93,6 @@ install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION
 install(DIRECTORY ${share_folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 # The other scripts work on the checkout and stay in it.
 #catkin_lint: ignore uninstalled_script
-install(PROGRAMS scripts/play_bag scripts/plot_edges scripts/plot_localize scripts/plot_map
+install(PROGRAMS scripts/await_manager scripts/play_bag scripts/plot_edges scripts/plot_localize scripts/plot_map
   scripts/plot_maps scripts/plot_paper scripts/plot_run scripts/plot_trust
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -2,6 +2,7 @@
 #include "nodes/mapper_node.hpp"
 
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -36,7 +37,36 @@ MapperNode::MapperNode(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   io_.start(std::move(load));
 }
 
-MapperNode::~MapperNode() { io_.end(); }
+MapperNode::~MapperNode() {
+  io_.end();
+  saveAtTheEnd();
+}
+
+/// What nobody has saved since the map last changed. The log does not go out any more.
+void MapperNode::saveAtTheEnd() {
+  if (map_version_ == saved_version_ || run_.located() == 0) return;
+  std::string text;
+  try {
+    text = parameters_.output.empty()
+               ? "the map of " + std::to_string(run_.located()) +
+                     " scans is not saved: output is not set, and save_map was not called"
+               : saveRun(parameters_.output, parameters_.config, record(), parameters_.map_frame,
+                         false, mapper_);
+  } catch (const std::exception& error) {
+    text = error.what();
+  }
+  std::cerr << "edgevox: " << text << std::endl;
+}
+
+/// With what was left out.
+RunRecord MapperNode::record() const {
+  RunRecord run = run_;
+  const TrackingIo::Counts counts = io_.counts();
+  run.left_out = counts.left_out;
+  run.refused = counts.refused;
+  run.dropped = counts.dropped;
+  return run;
+}
 
 /// In the thread of the scans.
 void MapperNode::loadGivenMap() {
@@ -130,17 +160,17 @@ bool MapperNode::saveMap(SaveMap::Request& request, SaveMap::Response& response)
   const std::string folder = request.folder.empty() ? parameters_.output : request.folder;
   std::unique_lock<std::mutex> lock(mutex_);
   Mapper mapper = mapper_;
-  RunRecord run = run_;
+  const RunRecord run = record();
   const std::string map_error = map_error_;
-  const TrackingIo::Counts counts = io_.counts();
+  const uint64_t version = map_version_;
   lock.unlock();
-  run.left_out = counts.left_out;
-  run.refused = counts.refused;
-  run.dropped = counts.dropped;
   return answer(response, log_, [&] {
     if (!map_error.empty()) throw FileError("nothing is saved, as there is no map: " + map_error);
-    return saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0,
-                   mapper);
+    std::string saved =
+        saveRun(folder, parameters_.config, run, parameters_.map_frame, request.full != 0, mapper);
+    lock.lock();
+    saved_version_ = version;
+    return saved;
   });
 }
 

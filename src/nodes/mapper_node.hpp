@@ -22,7 +22,8 @@ namespace edgevox {
 /// `voxels` (or `edges`) to the pose on TF, `odom` and `path`, to the map on `map_edges`,
 /// `map_boxes`, `map_boxes_update` and `map_occupied`, and to the edges of the last scan by those
 /// before it on `scan_edges`. `scan_report` tells what became of every scan. A scan waits for no
-/// publishing, saving or diagnosing but while a snapshot of the map is taken.
+/// publishing, saving or diagnosing but while a snapshot of the map is taken. At its end it saves
+/// to `output` what was not saved.
 class MapperNode {
  public:
   /// Throws ConfigError.
@@ -39,6 +40,8 @@ class MapperNode {
   void clockJumped();
   void begunAnew(uint64_t scan);
   void publishMap();
+  void saveAtTheEnd();
+  RunRecord record() const;
   bool saveMap(SaveMap::Request& request, SaveMap::Response& response);
   bool loadMap(LoadMap::Request& request, LoadMap::Response& response);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -54,6 +57,7 @@ class MapperNode {
   RunRecord run_;
   std::string map_error_;  // why there is no map to go on with, where there should be one
   uint64_t map_version_ = 0;
+  uint64_t saved_version_ = 0;
   uint64_t map_start_ = 0;  // differs after a reset, a jump of the clock or a new begin
 
   TrackingIo io_;

@@ -66,6 +66,25 @@ TEST_F(LaunchArguments, namesStayNames) {
   EXPECT_FALSE(parameters["/use_sim_time"]) << "is for bags";
 }
 
+TEST_F(LaunchArguments, topicAndManagerAreThoseOfTheCaller) {
+  const auto command = [&](const Words& arguments) {
+    std::filesystem::remove(folder_ / "log.txt");
+    Words words = {"roslaunch", "--args", "/edgevox/voxelizer", "edgevox", "mapping.launch"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const auto roslaunch = start(words);
+    EXPECT_TRUE(roslaunch->waitForEnd(20));
+    return log();
+  };
+  const auto expect = [](const std::string& text, const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  expect(command({}), "edgevox/Voxelizer manager points:=/points");
+  expect(command({"points:=velodyne_points", "manager:=velodyne_nodelet_manager"}),
+         "edgevox/Voxelizer /velodyne_nodelet_manager points:=/velodyne_points");
+  expect(command({"points:=/front/points", "manager:=/front/manager"}),
+         "edgevox/Voxelizer /front/manager points:=/front/points");
+}
+
 TEST_F(LaunchArguments, aBagHasItsOwnClock) {
   const YAML::Node parameters = parametersWith({"bag:=run.bag"});
   EXPECT_TRUE(parameters["/use_sim_time"].as<bool>(false));

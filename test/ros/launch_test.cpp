@@ -12,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -127,8 +128,8 @@ class Launch : public LaunchTest {
     std::ofstream(launch_file_) << text;
   }
 
-  /// As in a terminal of its own beside mapping.launch; then saves the map.
-  void playWithRosbag(const Words& options) {
+  /// As in a terminal of its own beside mapping.launch.
+  void feedWithRosbag(const Words& options) {
     ros::NodeHandle handle;
     int reports = 0;
     const ros::Subscriber subscriber = handle.subscribe<ScanReport>(
@@ -141,6 +142,11 @@ class Launch : public LaunchTest {
     command.insert(command.end(), options.begin(), options.end());
     const auto player = start(command);
     ASSERT_TRUE(waitFor([&] { return reports == kSweeps; })) << reports << " reports";
+  }
+
+  /// Then saves the map.
+  void playWithRosbag(const Words& options) {
+    feedWithRosbag(options);
     SaveMap save;
     ASSERT_TRUE(callService("/edgevox/save_map", save));
     EXPECT_TRUE(save.response.success) << save.response.message;
@@ -208,6 +214,46 @@ TEST_F(Launch, mapsWhatRosbagPlays) {
   roslaunch->interrupt();
   EXPECT_TRUE(roslaunch->waitForEnd(30));
   EXPECT_EQ(tree_.joints(), (Joints{{"map", "base_link"}, {"base_link", "lidar"}}));
+}
+
+TEST_F(Launch, savesAtCtrlC) {
+  writeBag(goodClouds(), {});
+  const auto roslaunch = launch({"output:=out"});
+  feedWithRosbag({});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  roslaunch->interrupt();
+  EXPECT_TRUE(roslaunch->waitForEnd(30));
+  expectSameAsOffline();
+}
+
+TEST_F(Launch, saysAtCtrlCThatNothingIsSaved) {
+  writeBag(goodClouds(), {});
+  const auto roslaunch = launch({});
+  feedWithRosbag({});
+  roslaunch->interrupt();
+  EXPECT_TRUE(roslaunch->waitForEnd(30));
+  EXPECT_TRUE(logged("the map of 12 scans is not saved: output is not set")) << log();
+}
+
+TEST_F(Launch, endsIfItsManagerIsKilled) {
+  const auto roslaunch = launch({});
+  ASSERT_TRUE(waitFor([] { return isMapping("/edgevox"); }));
+  EXPECT_EQ(std::system("kill -9 $(rosnode info /edgevox/manager 2>&1 | sed -n 's/^Pid: //p')"), 0);
+  EXPECT_TRUE(roslaunch->waitForEnd(30));
+  EXPECT_TRUE(logged("REQUIRED process [edgevox/manager-1] has died")) << log();
+}
+
+TEST_F(Launch, playsBagsOneAfterAnotherWhateverTheirNames) {
+  const std::filesystem::path folder = folder_ / "it's";
+  std::filesystem::create_directory(folder);
+  const auto half = goodClouds().begin() + kSweeps / 2;
+  writeBag({goodClouds().begin(), half}, {});
+  std::filesystem::rename(offline_.bag, folder / "a 0.bag");
+  writeBag({half, goodClouds().end()}, {});
+  std::filesystem::rename(offline_.bag, folder / "a 1.bag");
+  writeBag(goodClouds(), {});
+  launchToTheEnd({"bag:=\"it's/a 0.bag\" \"it's/a 1.bag\"", "output:=out", "exit_at_end:=true"});
+  expectSameAsOffline();
 }
 
 TEST_F(Launch, mapsWhatRosbagPlaysWithItsClock) {
