@@ -5,6 +5,7 @@
 #include <std_srvs/Trigger.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 

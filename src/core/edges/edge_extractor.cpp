@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/edges/edge_extractor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>

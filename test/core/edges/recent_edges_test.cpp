@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges of the last scan by the occupancy of a few scans.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edgevox/matching/global_search.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <vector>

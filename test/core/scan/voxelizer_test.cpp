@@ -318,12 +318,12 @@ std::vector<TimedPoint> pointsAtBorders(uint32_t seed, size_t count, double size
   Random random(seed);
   std::vector<TimedPoint> points(count);
   for (TimedPoint& point : points) {
-    for (double& coordinate : point.position) {
+    for (int axis = 0; axis < 3; ++axis) {
       auto at = static_cast<float>(std::round(random.uniform(-600.0, 600.0)) * size);
       const int steps = static_cast<int>(random.uniform(0.0, 3.0));
       const float towards = random.uniform(-1.0, 1.0) < 0.0 ? -1e9F : 1e9F;
       for (int i = 0; i < steps; ++i) at = std::nextafter(at, towards);
-      coordinate = static_cast<double>(at);
+      point.position[axis] = static_cast<double>(at);
     }
     if (point.position.norm() < 0.6) point.position.x() = 1.0;
   }
