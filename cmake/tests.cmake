@@ -37,8 +37,9 @@ if(CATKIN_ENABLE_TESTING)
   target_compile_definitions(${PROJECT_NAME}_test_support INTERFACE
     EDGEVOX_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
     EDGEVOX_DEFAULT_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../shared/data")
+  # That of catkin comes first: Noetic's builds a gtest of its own, and two are one too many.
   set(gtest_main ${GTEST_MAIN_LIBRARIES})
-  if(TARGET GTest::gtest_main)
+  if(NOT gtest_main AND TARGET GTest::gtest_main)
     set(gtest_main GTest::gtest_main)
   endif()
 
