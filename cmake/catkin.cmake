@@ -16,7 +16,7 @@ find_package(catkin REQUIRED COMPONENTS
   tf2_msgs
   visualization_msgs
 )
-find_package(Boost REQUIRED COMPONENTS program_options)
+find_package(Boost REQUIRED CONFIG COMPONENTS program_options)
 find_package(octomap REQUIRED)
 find_package(PCL REQUIRED COMPONENTS common io keypoints octree registration)
 find_package(yaml-cpp REQUIRED)
