@@ -100,7 +100,7 @@ TEST(Settings, ofOneConfigurationAgree) {
   config.voxel_size = 0.2;
   VoxelScanStamped message = makeMessage();
   addSettings(config, {"voxel_size", "voxelizer/", "edges/"}, message);
-  EXPECT_EQ(12U, message.settings.size());  // without edges/instruction_set
+  EXPECT_EQ(14U, message.settings.size());  // without edges/instruction_set
   EXPECT_FALSE(refusalOf(message, config));
   config.threads = 4;
   config.edges.instruction_set = InstructionSet::kPortable;
