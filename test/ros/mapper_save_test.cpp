@@ -121,11 +121,22 @@ TEST_F(SaveTest, WritesToTheParametersFolderIfNoneIsGiven) {
   const fs::path out = folder_ / "by_default";
   setParameter("mapper", "output", out.string());
   start();
-  EXPECT_TRUE(save("").success);  // before the first scan
-  EXPECT_EQ(0U, linesOf(out / "trajectory.tum"));
   map(firstScans(3));
   EXPECT_TRUE(save("").success);
   EXPECT_EQ(3U, linesOf(out / "trajectory.tum"));
+}
+
+TEST_F(SaveTest, AnEmptyMapReplacesNone) {
+  const fs::path out = folder_ / "kept";
+  setParameter("mapper", "output", out.string());
+  start();
+  expectRefused("", {"the map is empty", "stays as it is"});  // before the first scan
+  map(firstScans(3));
+  EXPECT_TRUE(save("").success);
+  const std::string before = contentOf(out / "map.edgevox");
+  call("reset", std_srvs::Trigger());
+  expectRefused("", {"the map is empty", "stays as it is"});
+  EXPECT_TRUE(before == contentOf(out / "map.edgevox"));
 }
 
 TEST_F(SaveTest, InTheMiddleDoesNotChangeTheTrajectory) {

@@ -79,9 +79,13 @@ TEST_F(VoxelizerTest, PublishesWhatTheCoreMakes) {
     EXPECT_LE(message.arrival.toSec(), ros::WallTime::now().toSec());
     EXPECT_GT(message.voxelize_seconds, 0.0F);
     EXPECT_EQ(0U, message.refused + message.dropped);
-    const std::vector<std::string> settings = {
-        "voxel_size=0.3", "voxelizer/min_range=1.5", "voxelizer/max_range=15",
-        "voxelizer/max_points=5000000", "voxelizer/max_voxels=300000"};
+    const std::vector<std::string> settings = {"voxel_size=0.3",
+                                               "voxelizer/min_range=1.5",
+                                               "voxelizer/max_range=15",
+                                               "voxelizer/max_points=5000000",
+                                               "voxelizer/max_voxels=300000",
+                                               "voxelizer/time_unit=auto",
+                                               "voxelizer/stamp_at=auto"};
     EXPECT_EQ(settings, settingsOf(message));
   }
 }
